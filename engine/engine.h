@@ -1,0 +1,147 @@
+// The engine: scene in, frame out. It owns the Vulkan device and knows no HTTP. All members must be
+// called from one thread; frames may be read and encoded on any other.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace cyanometer {
+
+/// Work that was given up because nobody waits for it any more, or because its time is over.
+struct Cancelled : std::runtime_error {
+  enum class Reason { client_gone, deadline } reason;
+  explicit Cancelled(Reason r);
+};
+/// The Vulkan device went away; the engine must be made again.
+struct DeviceLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// A sound request that is over a limit of this engine.
+struct OverLimit : std::runtime_error {
+  OverLimit(std::string pointer_, const std::string& detail);
+  std::string pointer;  ///< the scene member that is over it
+};
+
+/// Looked at between tiles of work.
+struct Watch {
+  /// True when the result is no longer wanted; called every few tens of milliseconds.
+  std::function<bool()> gone = [] { return false; };
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  /// Share of the work done, 0 to 1.
+  std::function<void(double)> progress = [](double) {};
+  /// @throws Cancelled
+  void check() const;
+};
+
+/// What will be done for a scene, decided from the scene, the version and the device alone.
+struct Plan {
+  std::string method;
+  std::map<std::string, double> options;
+  std::vector<double> wavelengths_nm;
+  double expected_error = 1;  ///< bound that holds in 95 % of frames, in the contract's measure
+  double expected_ms = 0;     ///< device time
+  bool met = true;            ///< false where max_error or max_ms cannot be kept
+  std::string why;            ///< in words
+};
+
+/// A rendered frame: linear planes and, where the format shows them, displayed pixels.
+struct Frame {
+  int width = 0, height = 0;
+  struct Plane {
+    std::string channel;   ///< EXR channel name: "R", "inscatter.G", "550nm", "transmittance.B"
+    const float* samples;  ///< height rows of width, from the top; valid while the frame lives
+  };
+  std::vector<Plane> planes;              ///< image channels first, then layers
+  const unsigned char* rgbx = nullptr;    ///< 4 bytes a pixel, sRGB; null where not asked for
+  double exposure_ev = 0;
+  double white_luminance = 0;             ///< cd/m^2 of 1.0, 0 where the planes are radiances
+  double render_ms = 0, prepare_ms = 0;
+  Plan plan;
+  std::string description;  ///< JSON: canonical scene, method, error, version: makes it again
+  std::shared_ptr<void> storage;  ///< keeps the pixels alive
+};
+
+struct Direction {
+  double elevation_deg = 0;
+  double azimuth_deg = 0;  ///< clockwise from north
+};
+struct Radiances {
+  std::vector<double> wavelengths_nm;
+  std::vector<std::vector<double>> radiance;       ///< [direction][wavelength], scene units
+  std::vector<std::vector<double>> transmittance;  ///< to ground or top
+  std::optional<std::vector<std::vector<double>>> standard_error;
+  struct Irradiance {
+    std::vector<double> direct, diffuse_down, diffuse_up;  ///< by wavelength, horizontal plane
+  };
+  std::optional<Irradiance> irradiance;
+  double prepare_ms = 0, render_ms = 0;
+  Plan plan;
+};
+
+/// One thing a method can be told, as data: the schema, the page and the documentation read it.
+struct MethodOption {
+  std::string name, title, description, unit;
+  double minimum = 0, maximum = 0, default_value = 0;
+  bool integer = true, logarithmic = false;
+};
+struct MethodDescription {
+  std::string name, title, summary;
+  int highest_order = -1;  ///< the highest order it computes; -1 all
+  std::vector<std::string> limits;  ///< where it is not valid, in words
+  std::vector<MethodOption> options;
+};
+/// All methods there are, in the order of API.md; `auto` is not one of them.
+const std::vector<MethodDescription>& methods();
+
+struct DeviceDescription {
+  std::string name, driver, api_version, type;
+  bool chosen = false;
+  std::string why;
+};
+
+struct EngineOptions {
+  std::string device;  ///< part of a device's name; empty: the best there is
+  double longest_dispatch_ms = 50;
+};
+
+class Engine {
+ public:
+  explicit Engine(const EngineOptions& options = {});
+  ~Engine();
+  Engine(Engine&&) noexcept;
+
+  /// @throws OverLimit, Cancelled, DeviceLost
+  Plan plan(const Scene& scene, const Watch& watch = {});
+  Frame render(const Scene& scene, const Watch& watch = {});
+  Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
+                     bool irradiance, const Watch& watch = {});
+
+  /// The device in use, as it enters an ETag and the logs.
+  const DeviceDescription& device() const;
+  /// Dispatches every pipeline once, so that the first request finds them compiled.
+  void warm();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// All Vulkan devices of this machine, and which one would be used and why.
+std::vector<DeviceDescription> list_devices(const EngineOptions& options = {});
+
+/// Key of everything that tables may depend on: equal keys share tables.
+std::string atmosphere_key(const Scene& scene);
+
+/// The program's version, as in answers and files.
+std::string version();
+
+}  // namespace cyanometer
