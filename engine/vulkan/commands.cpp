@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -252,6 +253,14 @@ double Commands::State::elapsed_ms() const {
   return static_cast<double>((ticks[1] - ticks[0]) & mask) * core->ns_per_tick * 1e-6;
 }
 
+/// The device still works on it: nothing that it uses may ever be freed.
+void Commands::abandon(std::unique_ptr<State> state) {
+  static std::mutex mutex;
+  static auto& abandoned = *new std::vector<std::unique_ptr<State>>;
+  const std::lock_guard lock(mutex);
+  abandoned.push_back(std::move(state));
+}
+
 Commands::Commands(Device& device) : state_(std::make_unique<State>(device.core())) {
   state_->make();
 }
@@ -322,8 +331,7 @@ double Commands::submit_and_wait(std::chrono::nanoseconds patience) {
   try {
     state_->submit();
     if (!state_->wait(patience)) {
-      // The device still works on it: nothing that it uses may ever be freed.
-      (void)state_.release();
+      abandon(std::move(state_));
       Device device(core);
       *this = Commands(device);
       throw DeviceLost(core->info.name + " has not answered in " +

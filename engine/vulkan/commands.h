@@ -70,6 +70,7 @@ class Commands {
 
  private:
   struct State;
+  static void abandon(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

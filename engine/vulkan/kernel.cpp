@@ -9,7 +9,7 @@
 namespace cyanometer::vulkan {
 namespace {
 
-constexpr std::size_t kPipelinesKept = 256;
+constexpr std::size_t kPipelinesKept = 64;
 
 void make_module(Kernel::Program& program, std::span<const std::uint32_t> spirv) {
   VkShaderModuleCreateInfo info{};
