@@ -113,7 +113,7 @@ struct Mixing {
   PhaseFunction tabulated(const HenyeyGreenstein& phase) const { return phase; }
   PhaseFunction tabulated(const CornetteShanks& phase) const { return phase; }
   PhaseFunction tabulated(const MieSpheres& spheres) const {
-    return TabulatedPhase{mie_angles_rad(), mie_optics(spheres, wavelengths_nm)->phase};
+    return TabulatedPhase{mie_angles_rad(), mie_optics(spheres, wavelengths_nm).phase};
   }
   PhaseFunction tabulated(const PhaseTable& table) const {
     std::vector<double> angle_rad;
@@ -145,30 +145,31 @@ struct Mixing {
     split(m, extinction, at_wavelengths(given.single_scattering_albedo));
   }
   void add(Medium& m, const MieOpticalDepth& given, const MieSpheres* spheres) const {
-    const double length = column("optical_depth", given.value);
-    const std::vector<double> extinction =
-        mie_extinction(*spheres, given.at_nm, given.value / length);
-    const auto mie = mie_optics(*spheres, wavelengths_nm);
-    std::vector<double> albedo;
-    for (std::size_t w = 0; w < wavelengths_nm.size(); ++w)
-      albedo.push_back(std::min(1.0, mie->scattering_um2[w] / mie->extinction_um2[w]));
-    split(m, extinction, albedo);
+    const double extinction = given.value / column("optical_depth", given.value);
+    const double number = spheres_per_um2_km(*spheres, given.at_nm, extinction);
+    const MieOptics mie = mie_optics(*spheres, wavelengths_nm);
+    for (std::size_t w = 0; w < wavelengths_nm.size(); ++w) {
+      const double absorbing_um2 = mie.extinction_um2[w] - mie.scattering_um2[w];
+      m.scattering_per_km[w] = number * mie.scattering_um2[w];
+      m.absorption_per_km[w] = number * std::max(0.0, absorbing_um2);  // not -1e-17
+    }
   }
   void add(Medium& m, const Visibility& given, const MieSpheres* spheres) const {
     const double at_550_nm = visibility_optical_depth / given.visibility_km;
-    split(m,
-          spheres ? mie_extinction(*spheres, visibility_at_nm, at_550_nm)
-                  : std::vector<double>(wavelengths_nm.size(), at_550_nm),
-          at_wavelengths(given.single_scattering_albedo));
+    std::vector<double> extinction(wavelengths_nm.size(), at_550_nm);
+    if (spheres) {
+      const double number = spheres_per_um2_km(*spheres, visibility_at_nm, at_550_nm);
+      extinction = mie_optics(*spheres, wavelengths_nm).extinction_um2;
+      for (double& value : extinction) value *= number;
+    }
+    split(m, extinction, at_wavelengths(given.single_scattering_albedo));
   }
 
-  /// The spectrum of extinction of spheres that is `value` at `at_nm`.
-  std::vector<double> mie_extinction(const MieSpheres& spheres, double at_nm,
-                                     double value) const {
-    const double reference = mie_optics(spheres, {at_nm})->extinction_um2[0];
-    std::vector<double> extinction = mie_optics(spheres, wavelengths_nm)->extinction_um2;
-    for (double& cross_section : extinction) cross_section *= value / reference;
-    return extinction;
+  /// How many spheres it takes for an extinction at a wavelength, as a factor from
+  /// cross-sections in um^2 to coefficients per km.
+  static double spheres_per_um2_km(const MieSpheres& spheres, double at_nm,
+                                   double extinction_per_km) {
+    return extinction_per_km / mie_optics(spheres, {at_nm}).extinction_um2[0];
   }
 };
 
