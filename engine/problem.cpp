@@ -167,9 +167,14 @@ struct Mixing {
 
   /// How many spheres it takes for an extinction at a wavelength, as a factor from
   /// cross-sections in um^2 to coefficients per km.
-  static double spheres_per_um2_km(const MieSpheres& spheres, double at_nm,
-                                   double extinction_per_km) {
-    return extinction_per_km / mie_optics(spheres, {at_nm}).extinction_um2[0];
+  double spheres_per_um2_km(const MieSpheres& spheres, double at_nm,
+                            double extinction_per_km) const {
+    const double each_um2 = mie_optics(spheres, {at_nm}).extinction_um2[0];
+    if (each_um2 > 0) return extinction_per_km / each_um2;
+    throw SceneError("/atmosphere/constituents/" + name + "/phase/refractive_index",
+                     nlohmann::json(spheres.refractive_index).dump(),
+                     "an index other than that of air, 1",
+                     "no number of such spheres has an optical depth");
   }
 };
 

@@ -152,7 +152,8 @@ Sphere solve(double size_parameter, Complex index) {
   Sphere sphere{extinction_efficiency(series), scattering_efficiency(series),
                 scattered_intensity(series, cosines)};
   const double x = series.size_parameter;
-  for (double& value : sphere.phase) value /= pi * x * x * sphere.scattering;
+  const double sum = pi * x * x * sphere.scattering;
+  for (double& value : sphere.phase) value = sum > 0 ? value / sum : 0;
   return sphere;
 }
 

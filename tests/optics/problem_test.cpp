@@ -127,6 +127,12 @@ TEST(Problem, AnOpticalDepthNeedsSomethingDense) {
   EXPECT_TRUE(make_problem(with("dust", {TentProfile{200, 10}, none}), {550}).media.empty());
 }
 
+TEST(Problem, SpheresOfNothingHaveNoOpticalDepth) {
+  const MieSpheres nothing{0.1, 1.5, {1, 0}};
+  const Particles particles{MieOpticalDepth{0.1, 550}, nothing};
+  EXPECT_THROW(make_problem(with("haze", {UniformProfile{}, particles}), {550}), SceneError);
+}
+
 TEST(Problem, APhaseTableNeedsAValue) {
   const Particles particles{ParticleCoefficients{1.0, 0.0}, PhaseTable{{0, 180}, {0, 0}}};
   EXPECT_THROW(make_problem(with("dust", {UniformProfile{}, particles}), {550}), SceneError);
