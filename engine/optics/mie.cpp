@@ -49,6 +49,7 @@ MieSeries small_sphere_series(double x, Complex m) {
 }  // namespace
 
 MieSeries mie_series(double x, Complex m) {
+  if (m == 1.0) return {x, {0}, {0}};  // there is no sphere, and rounding must not leave one
   if (x < 0.003) return small_sphere_series(x, m);
   const auto count = static_cast<std::size_t>(x + 4 * std::cbrt(x) + 2);
   const auto d = logarithmic_derivatives(m * x, count);
