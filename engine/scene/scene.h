@@ -162,9 +162,16 @@ struct Constituent {
 
 // ---- The parts of a scene -----------------------------------------------------------------------
 
+/// The same albedo everywhere.
+struct UniformSurface {
+  bool operator==(const UniformSurface&) const = default;
+};
+using Surface = std::variant<UniformSurface>;
+
 struct Planet {
   double radius_km = 6360;
   Spectrum ground_albedo = 0.1;
+  Surface surface;
   bool operator==(const Planet&) const = default;
 };
 
