@@ -33,7 +33,7 @@ glm::dvec3 unit_vector(const Direction& d) {
 
 /// Some 256 of the frame's rays, one from each cell of an even grid, off its centre so that no row or
 /// column of the picture is looked at twice as often as another.
-std::vector<glm::dvec3> probe_directions(const Physics<double>& camera) {
+std::vector<glm::dvec3> probe_directions(Physics<double>& camera) {
   constexpr int side = 16;
   int width = camera.scene.width, height = camera.scene.height;
   int columns = std::min(side, width), rows = std::min(side, height);
@@ -213,7 +213,10 @@ void Engine::Parts::trace_frame(const Scene& scene, const Problem& problem, cons
                                 Frame& frame, FrameStore& store) {
   UploadedScene uploaded(device, pack<float>(problem));
   StarPixels stars;
-  if (scene.image.show.stars) stars = star_pixels(problem, pack<double>(problem));
+  if (scene.image.show.stars) {
+    Physics<double> camera = pack<double>(problem);
+    stars = star_pixels(problem, camera);
+  }
   Compositor::Job job = compositor.prepare(device, uploaded, groups, stars);
   Tracer tracer{device, commands, pacer, watch};
   trace_tiles(tracer, method(plan.method), plan.options, uploaded,
@@ -269,7 +272,7 @@ Frame Engine::render(const Scene& scene, const Watch& watch) {
 namespace {
 
 /// Direct irradiance on a horizontal plane at the camera, per unit of the sun's.
-std::vector<double> direct_irradiance(const Physics<double>& physics,
+std::vector<double> direct_irradiance(Physics<double>& physics,
                                       const std::vector<double>& transmittance) {
   glm::dvec3 camera(0, 0, physics.scene.planet_radius_km + physics.scene.camera_altitude_km);
   auto sun = physics.sun_ray(camera, glm::dvec3(0));

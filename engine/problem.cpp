@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
 #include "engine/optics/colour.h"
@@ -282,11 +281,11 @@ Matrix white_balance(const WhitePoint& white, const Triple& sunlight_xyz) {
     if (white.kind == WhitePoint::Kind::sun) return adaptation_to_d65(sunlight_xyz);
     if (white.kind == WhitePoint::Kind::kelvin)
       return adaptation_to_d65(blackbody_xyz(white.kelvin));
-  } catch (const std::domain_error& error) {
+  } catch (const std::domain_error&) {
     const bool sun = white.kind == WhitePoint::Kind::sun;
-    throw SceneError("/image/white", nlohmann::json(sun ? "sun" : "kelvin").dump(),
-                     "\"d65\", or a light with all of the eye's responses",
-                     "nothing can be adapted to this light");
+    throw SceneError("/image/white", sun ? "\"sun\"" : nlohmann::json(white.kelvin).dump(),
+                     "\"d65\", or a light that all of the eye's cones respond to",
+                     "a picture cannot be adapted to this light");
   }
   return Output{}.white_balance;
 }
@@ -330,12 +329,14 @@ Output make_output(const Scene& scene, const std::vector<double>& wavelengths_nm
     output.white_card = sunlight_xyz[1] / std::numbers::pi;
   } else {
     output.rgb.fill(std::vector<double>(wavelengths_nm.size(), 0.0));
-    for (std::size_t c = 0; c < 3; ++c) output.rgb[c].at(c) = output.irradiance[c];
+    for (std::size_t c = 0; c < std::min<std::size_t>(3, wavelengths_nm.size()); ++c)
+      output.rgb[c][c] = output.irradiance[c];
     output.xyz = output.rgb;
     const Triple light = total(output.rgb);
     sunlight_xyz = xyz_from_rec709() * light;
     output.white_card = (light[0] + light[1] + light[2]) / 3 / std::numbers::pi;
   }
+  if (!(output.white_card > 0)) output.white_card = 1;  // all is black, at any exposure
   output.white_balance = white_balance(scene.image.white, sunlight_xyz);
   return output;
 }

@@ -1,5 +1,6 @@
-// The interface behind which every method stands: told by data what it is and can be told, it traces
-// rays through one uploaded scene. A new method is a folder beside this file and a line in methods.cpp.
+// The interface behind which every method stands: told by data what it is and can be told, it
+// traces rays through one uploaded scene. A new method is a folder beside this file and a line
+// in methods.cpp.
 #pragma once
 
 #include <map>
@@ -17,8 +18,8 @@ namespace cyanometer {
 
 using MethodOptions = std::map<std::string, double>;
 
-/// What a method leaves of each ray of a tile: inscattered radiance, ground radiance (as seen, both
-/// per unit irradiance, 1/sr) and transmittance to ground or space, in this order, each as
+/// What a method leaves of each ray of a tile: inscattered radiance, ground radiance (as seen,
+/// both per unit irradiance, 1/sr) and transmittance to ground or space, in this order, each as
 /// groups of four wavelengths, each of those a plane of `rays` vec4 (shaders/device.glsl).
 struct Tile {
   static constexpr int quantities = 3;

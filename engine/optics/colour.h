@@ -31,7 +31,8 @@ Matrix inverse(const Matrix& m);
 Matrix adaptation_to_d65(const Triple& white_xyz);
 
 /// A set of `count` wavelengths (3 to 64, nm, ascending) from which colours under skies are
-/// interpolated best. Measured errors stand in colour.cpp.
+/// interpolated best. How good they are
+/// stands in colour_wavelengths.cpp.
 std::vector<double> colour_wavelengths(int count);
 
 }  // namespace cyanometer

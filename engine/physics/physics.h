@@ -37,6 +37,7 @@ using glm::sqrt;
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
 /// The device's view of one scene, and every function of shaders/physics/ and of the methods on it.
+/// None of them changes it; GLSL has no way to say so, hence references to it are not const.
 template <class Scalar>
 struct Physics {
   using Real = Scalar;

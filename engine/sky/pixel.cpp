@@ -71,7 +71,7 @@ std::optional<int> pixel_of(const P& camera, const glm::dvec3& direction) {
   }
 }
 
-double pixel_solid_angle(const P& camera, int pixel) {
+double pixel_solid_angle(P& camera, int pixel) {
   glm::dvec3 v = camera_frame(camera, camera.pixel_ray(pixel).direction);
   auto square = [](double x) { return x * x; };
   switch (camera.PROJECTION) {

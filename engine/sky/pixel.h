@@ -11,6 +11,6 @@ namespace cyanometer {
 std::optional<int> pixel_of(const Physics<double>& camera, const glm::dvec3& direction);
 
 /// Solid angle of a pixel, sr, at its centre.
-double pixel_solid_angle(const Physics<double>& camera, int pixel);
+double pixel_solid_angle(Physics<double>& camera, int pixel);
 
 }  // namespace cyanometer

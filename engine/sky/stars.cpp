@@ -67,7 +67,7 @@ double star_irradiance(const Star& star, double wavelength_nm) {
          planck_ratio(wavelength_nm, sun_temperature_k);
 }
 
-StarPixels star_pixels(const Problem& problem, const Physics<double>& camera) {
+StarPixels star_pixels(const Problem& problem, Physics<double>& camera) {
   std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
   std::map<int, std::vector<glm::vec4>> lit;
   glm::dmat3 turn = planet_to_local(problem.camera);

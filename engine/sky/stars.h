@@ -27,6 +27,6 @@ struct StarPixels {
   std::vector<int> pixels;
   std::vector<glm::vec4> radiance;  ///< [pixel][group of wavelengths], per unit irradiance, 1/sr
 };
-StarPixels star_pixels(const Problem& problem, const Physics<double>& camera);
+StarPixels star_pixels(const Problem& problem, Physics<double>& camera);
 
 }  // namespace cyanometer
