@@ -1,5 +1,5 @@
-// The daemon's configuration: one struct, and one list from which flags, environment, --help and the
-// README's table come.
+// The daemon's configuration: one struct, and one list from which flags, environment, --help
+// and the README's table come.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,18 @@ struct Config {
   std::string log_level = "info";
 
   std::size_t body_bytes() const { return static_cast<std::size_t>(max_body_mb * 1048576); }
-  std::size_t frame_bytes() const { return static_cast<std::size_t>(frame_memory_mb * 1048576); }
+  std::size_t frame_bytes() const {
+    return static_cast<std::size_t>(frame_memory_mb * 1048576);
+  }
 };
 
 struct Setting {
-  std::string name;  ///< "ops-listen": the flag is --ops-listen, the variable CYANOMETER_OPS_LISTEN
+  std::string
+      name;  ///< "ops-listen": the flag is --ops-listen, the variable CYANOMETER_OPS_LISTEN
   std::string help;
   std::variant<std::string Config::*, int Config::*, double Config::*> member;
-  double minimum = 0, maximum = 0;   ///< of numbers
-  std::vector<std::string> choices;  ///< of strings; empty: any
+  double minimum = 0, maximum = 0;        ///< of numbers
+  std::vector<std::string> choices = {};  ///< of strings; empty: any
 
   std::string flag() const { return "--" + name; }
   std::string variable() const;

@@ -6,7 +6,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr std::array bounds_s{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25,
+constexpr std::array bounds_s{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,  0.25,
                               0.5,   1.0,    2.5,   5.0,  10.0,  30.0, 60.0, 300.0};
 
 std::string number(double value) {
@@ -16,7 +16,8 @@ std::string number(double value) {
   return out.str();
 }
 
-std::string preamble(const std::string& name, const std::string& type, const std::string& help) {
+std::string preamble(const std::string& name, const std::string& type,
+                     const std::string& help) {
   return "# HELP " + name + " " + help + "\n# TYPE " + name + " " + type + "\n";
 }
 

@@ -11,7 +11,8 @@ namespace cyanometer {
 
 class Metrics {
  public:
-  void answered(const std::string& route, const std::string& method, int status, double seconds);
+  void answered(const std::string& route, const std::string& method, int status,
+                double seconds);
   /// One stage of a rendered answer: "queue", "prepare", "render", "encode".
   void stage(const std::string& name, double seconds);
 

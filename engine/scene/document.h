@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -29,6 +30,12 @@ nlohmann::json parse_json(std::string_view bytes);
 /// Merges `document` over its preset, validates it and resolves every default.
 /// @throws SceneError
 Scene read_scene(const nlohmann::json& document);
+
+/// The document that a link's query says: dotted paths set members, values are JSON where they parse,
+/// else strings.
+/// @throws SceneError where a path is given twice, is empty in a part, or leads through no object
+nlohmann::json document_from_query(
+    const std::vector<std::pair<std::string, std::string>>& query);
 
 /// The whole scene as a document that reads back as the same scene: every member that is not idle,
 /// none that is, no preset. Equal scenes have equal bytes (`dump()` of this).

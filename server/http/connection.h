@@ -1,4 +1,5 @@
-// One client's connection: whole requests in, answers out, each within a byte budget and a deadline.
+// One client's connection: whole requests in, answers out, each within a byte budget and a
+// deadline.
 #pragma once
 
 #include <chrono>
@@ -33,8 +34,8 @@ class Connection {
   /// `wake` becomes readable when the server stops: idle connections then end at once.
   Connection(int socket, int wake, const ConnectionLimits& limits);
 
-  /// True when a request's first byte is there; false when the client left, `idle` went by, or the
-  /// server stops.
+  /// True when a request's first byte is there; false when the client left, `idle` went by, or
+  /// the server stops.
   bool wait(std::chrono::milliseconds idle) const;
   /// The next request, whole; none when the client left in the middle of it.
   /// @throws Problem; the connection must then be closed, its place in the stream is unknown
@@ -42,8 +43,8 @@ class Connection {
   /// False when the client did not take it all.
   bool write(std::string_view bytes) const;
   bool gone() const;
-  /// Sends what is written and lets the client read it: closing a socket with unread input would
-  /// reset the connection and lose the answer.
+  /// Sends what is written and lets the client read it: closing a socket with unread input
+  /// would reset the connection and lose the answer.
   void close_gently();
 
   const std::string& peer() const { return peer_; }

@@ -60,7 +60,8 @@ void HttpServer::bind(const std::string& address) {
   const bool bound = port == 0 ? bind_to_any_port(host) > 0 : bind_to_port(host, port);
   constexpr int backlog = 1024;  // the library's is 5: a burst of clients would be dropped
   if (!bound || ::listen(svr_sock_, backlog) != 0) {
-    throw std::runtime_error("cannot listen on " + address + " (in use, or not this machine's)");
+    throw std::runtime_error("cannot listen on " + address +
+                             " (in use, or not this machine's)");
   }
   port_ = bound_port(svr_sock_);
 }
@@ -70,7 +71,8 @@ bool HttpServer::run() { return listen_after_bind() || stopping_; }
 void HttpServer::stop() {
   if (stopping_.exchange(true)) return;
   eventfd_write(wake_, 1);
-  // The library's own stop() is lost before it listens; a socket that is shut down never accepts.
+  // The library's own stop() is lost before it listens; a socket that is shut down never
+  // accepts.
   const int listener = svr_sock_;
   if (listener >= 0) ::shutdown(listener, SHUT_RDWR);
 }
@@ -118,9 +120,9 @@ bool HttpServer::wait_for_request(const Connection& connection, bool first) cons
   // Where most threads are taken, those that only wait are the ones to give up.
   const bool crowded = connections_ * 4 > static_cast<int>(options_.connections) * 3;
   const auto idle = first ? options_.limits.head : options_.limits.idle;
-  return connection.wait(crowded ? std::min<ConnectionLimits::Duration>(
-                                       idle, std::chrono::milliseconds(500))
-                                 : idle);
+  return connection.wait(
+      crowded ? std::min<ConnectionLimits::Duration>(idle, std::chrono::milliseconds(500))
+              : idle);
 }
 
 void HttpServer::refuse(Connection& connection, const Problem& problem) const {

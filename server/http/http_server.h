@@ -1,4 +1,5 @@
-// The guarded listener: cpp-httplib accepts connections, everything read from them is read here.
+// The guarded listener: cpp-httplib accepts connections, everything read from them is read
+// here.
 #pragma once
 
 #include <httplib.h>

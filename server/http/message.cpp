@@ -54,7 +54,8 @@ std::string decode(std::string_view text, bool plus_is_space) {
       const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
       const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
       if (high < 0 || low < 0) {
-        throw Problem(400, "The address holds a '%' that two hexadecimal digits do not follow.");
+        throw Problem(400,
+                      "The address holds a '%' that two hexadecimal digits do not follow.");
       }
       out += static_cast<char>(high * 16 + low);
       i += 2;
@@ -80,16 +81,18 @@ Fields decode_query(std::string_view query) {
 std::string random_id() {
   thread_local std::mt19937_64 random{std::random_device{}()};
   std::array<char, 16> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), random(), 16).ptr;
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), random(), 16).ptr;
   return {digits.data(), end};
 }
 
 /// The client's own id where it is harmless; anything else could forge log lines or headers.
 std::string safe_id(const std::string& given) {
-  const bool safe = !given.empty() && given.size() <= 64 && std::ranges::all_of(given, [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-           c == '-' || c == '_';
-  });
+  const bool safe =
+      !given.empty() && given.size() <= 64 && std::ranges::all_of(given, [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+               c == '-' || c == '_';
+      });
   return safe ? given : random_id();
 }
 
@@ -121,7 +124,8 @@ void parse_request_line(std::string_view line, Head& head) {
     throw Problem(400, "The request line holds characters that do not belong there.");
   }
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
-    if (version.starts_with("HTTP/")) throw Problem(505, "HTTP/1.1 and HTTP/1.0 are spoken here.");
+    if (version.starts_with("HTTP/"))
+      throw Problem(505, "HTTP/1.1 and HTTP/1.0 are spoken here.");
     throw Problem(400, "The request line is not 'METHOD target HTTP/1.1'.");
   }
   head.minor_version = version.back() - '0';
@@ -188,12 +192,14 @@ Framing frame_body(const Head& head, std::size_t most_body_bytes) {
     throw Problem(400, "The body's length is given twice.");
   }
   if (coded) throw Problem(411, "Send the body with a Content-Length, not in chunks.");
-  if (lengths == 0 && (head.method == "POST" || head.method == "PUT" || head.method == "PATCH")) {
+  if (lengths == 0 &&
+      (head.method == "POST" || head.method == "PUT" || head.method == "PATCH")) {
     throw Problem(411, "A body needs a Content-Length.");
   }
   const auto length = lengths == 0 ? 0 : parse_length(join(headers, "content-length"));
   if (length > most_body_bytes) {
-    throw Problem(413, "The body is longer than " + std::to_string(most_body_bytes) + " bytes.");
+    throw Problem(413,
+                  "The body is longer than " + std::to_string(most_body_bytes) + " bytes.");
   }
   const auto coding = lower(join(headers, "content-encoding"));
   if (!coding.empty() && coding != "identity") {
@@ -207,13 +213,13 @@ Framing frame_body(const Head& head, std::size_t most_body_bytes) {
   if (!expectation.empty() && !framing.expect_continue) {
     throw Problem(417, "Expect knows 100-continue alone.");
   }
-  // A body that its method gives no meaning is not read: the connection ends with the answer, so
-  // that its bytes are never taken for a request.
+  // A body that its method gives no meaning is not read: the connection ends with the answer,
+  // so that its bytes are never taken for a request.
   framing.body_bytes = head.method == "POST" ? length : 0;
   const auto connection = lower(join(headers, "connection"));
-  framing.close = (length > 0 && head.method != "POST") ||
-                  connection.find("close") != std::string::npos ||
-                  (head.minor_version == 0 && connection.find("keep-alive") == std::string::npos);
+  framing.close =
+      (length > 0 && head.method != "POST") || connection.find("close") != std::string::npos ||
+      (head.minor_version == 0 && connection.find("keep-alive") == std::string::npos);
   return framing;
 }
 

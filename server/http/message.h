@@ -22,14 +22,15 @@ struct Request {
   /// True once the client has closed the connection; may be called from any thread.
   std::function<bool()> gone = [] { return false; };
 
-  /// The header's value; several of that name joined by ", " as in RFC 9110; empty where absent.
+  /// The header's value; several of that name joined by ", " as in RFC 9110; empty where
+  /// absent.
   std::string header(std::string_view lower_case_name) const;
 };
 
 struct Answer {
   int status = 200;
-  Fields headers;
-  std::string body;
+  Fields headers = {};
+  std::string body = {};
   /// False for the answer to a HEAD whose body's length only rendering would tell.
   bool length_known = true;
 };

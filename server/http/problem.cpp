@@ -38,7 +38,8 @@ std::string problem_json(const Problem& problem, std::string_view request_id) {
                              {"title", status_phrase(problem.status)},
                              {"status", problem.status},
                              {"detail", problem.detail}};
-  if (!request_id.empty()) out["instance"] = "urn:cyanometer:request:" + std::string(request_id);
+  if (!request_id.empty())
+    out["instance"] = "urn:cyanometer:request:" + std::string(request_id);
   if (!problem.pointer.empty()) out["pointer"] = problem.pointer;
   if (!problem.given.empty()) out["given"] = problem.given;
   if (!problem.allowed.empty()) out["allowed"] = problem.allowed;

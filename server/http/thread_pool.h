@@ -13,7 +13,8 @@
 namespace cyanometer {
 
 /// One task, one thread, so that no connection waits behind another that is idle. Beyond
-/// `most_threads` a task runs on the caller with `overloaded()` true: it must refuse and return.
+/// `most_threads` a task runs on the caller with `overloaded()` true: it must refuse and
+/// return.
 class ThreadPool : public httplib::TaskQueue {
  public:
   explicit ThreadPool(std::size_t most_threads) : most_threads_(most_threads) {}

@@ -29,8 +29,9 @@ struct DeviceUnavailable : std::runtime_error {
 };
 
 struct Job {
-  std::string client;  ///< whose turn it takes: clients alternate, one client's jobs keep their order
-  bool quick = false;  ///< milliseconds of work: goes before all others
+  std::string
+      client;  ///< whose turn it takes: clients alternate, one client's jobs keep their order
+  bool quick = false;           ///< milliseconds of work: goes before all others
   std::size_t frame_bytes = 0;  ///< memory of the result, until the Ticket dies
   Watch watch;
   std::function<void(Engine&, const Watch&)> work;
@@ -46,7 +47,7 @@ class RenderQueue {
  public:
   struct Options {
     EngineOptions engine;
-    std::size_t capacity = 64;              ///< jobs that wait
+    std::size_t capacity = 64;                       ///< jobs that wait
     std::size_t frame_bytes = std::size_t{2} << 30;  ///< of all frames alive at once
     std::function<void(const std::string& event)> log = [](const std::string&) {};
   };
@@ -95,8 +96,8 @@ class RenderQueue {
   Options options_;
   mutable std::mutex mutex_;
   std::condition_variable work_here_;
-  /// In order of turn, then of arrival. A client's n-th waiting job has its turn n rounds from now
-  /// (start-time fair queueing with equal weights [Goyal, Vin and Cheng 1996]).
+  /// In order of turn, then of arrival. A client's n-th waiting job has its turn n rounds from
+  /// now (start-time fair queueing with equal weights [Goyal, Vin and Cheng 1996]).
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<Entry>> waiting_;
   std::map<std::string, std::uint64_t> last_turn_;
   std::uint64_t turn_ = 0, arrivals_ = 0;
