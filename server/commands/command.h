@@ -1,7 +1,7 @@
 // The command line: one file a command, one line each in the table of command.cpp.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
