@@ -1,0 +1,117 @@
+// Radiance's picture format [Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's file
+// formats].
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/image/formats.h"
+
+namespace cyanometer {
+namespace {
+
+using Rgbe = std::array<unsigned char, 4>;
+
+/// A common exponent and three mantissas of 8 bits, rounded: nearly all readers take them as
+/// they are (Radiance itself adds half a unit). What the format lacks is 0 (negative values,
+/// NaN) or its largest value.
+Rgbe to_rgbe(std::array<float, 3> rgb) {
+  constexpr float kLargest = 0x1.fep126f;
+  for (float& value : rgb) value = value > 0 ? std::min(value, kLargest) : 0.0f;
+  const float largest = std::max({rgb[0], rgb[1], rgb[2]});
+  if (largest < 0x1p-127f) return {};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  if (std::lround(std::ldexp(largest, 8 - exponent)) == 256) ++exponent;
+  Rgbe result{0, 0, 0, static_cast<unsigned char>(exponent + 128)};
+  for (std::size_t c = 0; c < 3; ++c)
+    result[c] = static_cast<unsigned char>(std::lround(std::ldexp(rgb[c], 8 - exponent)));
+  return result;
+}
+
+/// Runs as (128 + length, value), the rest as (length, values...).
+void append_runs(std::string& file, const std::vector<unsigned char>& bytes) {
+  constexpr std::size_t kShortestRun = 4, kLongestRun = 127, kLongestRest = 128;
+  const auto run_at = [&](std::size_t i) {
+    std::size_t n = 1;
+    while (n < kLongestRun && i + n < bytes.size() && bytes[i + n] == bytes[i]) ++n;
+    return n;
+  };
+  for (std::size_t i = 0; i < bytes.size();) {
+    std::size_t end = i, run = 0;  // of what is no run
+    while (end < bytes.size() && (run = run_at(end)) < kShortestRun) end += run;
+    for (; i < end;) {
+      const std::size_t n = std::min(end - i, kLongestRest);
+      file += static_cast<char>(n);
+      file.append(reinterpret_cast<const char*>(&bytes[i]), n);
+      i += n;
+    }
+    if (i == bytes.size()) break;
+    file += static_cast<char>(128 + run);
+    file += static_cast<char>(bytes[i]);
+    i += run;
+  }
+}
+
+void append_row(std::string& file, const std::vector<Rgbe>& row) {
+  const std::size_t width = row.size();
+  if (width < 8 || width > 32767) {  // the run-length coding has no room for such a width
+    for (const Rgbe& pixel : row) file.append(pixel.begin(), pixel.end());
+    return;
+  }
+  file += "\x02\x02";
+  file += static_cast<char>(width >> 8);
+  file += static_cast<char>(width & 0xff);
+  std::vector<unsigned char> component(width);
+  for (std::size_t c = 0; c < 4; ++c) {
+    std::transform(row.begin(), row.end(), component.begin(),
+                   [c](const Rgbe& pixel) { return pixel[c]; });
+    append_runs(file, component);
+  }
+}
+
+const float* plane(const Frame& frame, std::string_view channel) {
+  for (const Frame::Plane& plane : frame.planes)
+    if (plane.channel == channel) return plane.samples;
+  throw std::runtime_error("the frame has no channel " + std::string(channel));
+}
+
+std::string header(const Frame& frame) {
+  std::string description = frame.description;
+  std::replace(description.begin(), description.end(), '\n', ' ');  // one line, the same JSON
+  std::string text = "#?RADIANCE\n# " + std::string(kDescriptionKey) + " " + description +
+                     "\nFORMAT=32-bit_rle_rgbe\n"
+                     "PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290\n";
+  if (frame.white_luminance > 0) {
+    // Radiance means W m^-2 sr^-1 at 179 lm/W after division by EXPOSURE.
+    std::array<char, 64> line{};
+    std::snprintf(line.data(), line.size(), "EXPOSURE=%.9g\n", 179 / frame.white_luminance);
+    text += line.data();
+  }
+  return text + "\n-Y " + std::to_string(frame.height) + " +X " + std::to_string(frame.width) +
+         "\n";
+}
+
+}  // namespace
+
+std::string encode_hdr(const Frame& frame, const Scene&) {
+  const std::array<const float*, 3> rgb{plane(frame, "R"), plane(frame, "G"),
+                                        plane(frame, "B")};
+  const auto width = static_cast<std::size_t>(frame.width);
+  const auto height = static_cast<std::size_t>(frame.height);
+  std::string file = header(frame);
+  std::vector<Rgbe> row(width);
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t i = y * width + x;
+      row[x] = to_rgbe({rgb[0][i], rgb[1][i], rgb[2][i]});
+    }
+    append_row(file, row);
+  }
+  return file;
+}
+
+}  // namespace cyanometer
