@@ -31,9 +31,9 @@ nlohmann::json parse_json(std::string_view bytes);
 /// @throws SceneError
 Scene read_scene(const nlohmann::json& document);
 
-/// The document that a link's query says: dotted paths set members, values are JSON where they parse,
-/// else strings.
-/// @throws SceneError where a path is given twice, is empty in a part, or leads through no object
+/// The document that a link's query says: dotted paths set members, values are JSON where they
+/// parse, else strings.
+/// @throws SceneError where a path is given twice, has an empty part, or leads through no object
 nlohmann::json document_from_query(
     const std::vector<std::pair<std::string, std::string>>& query);
 
