@@ -113,7 +113,7 @@ struct Mixing {
   PhaseFunction tabulated(const HenyeyGreenstein& phase) const { return phase; }
   PhaseFunction tabulated(const CornetteShanks& phase) const { return phase; }
   PhaseFunction tabulated(const MieSpheres& spheres) const {
-    return TabulatedPhase{mie_angles_rad(), mie_optics(spheres, wavelengths_nm)->phase};
+    return TabulatedPhase{mie_angles_rad(), mie_optics(spheres, wavelengths_nm).phase};
   }
   PhaseFunction tabulated(const PhaseTable& table) const {
     std::vector<double> angle_rad;
@@ -145,30 +145,36 @@ struct Mixing {
     split(m, extinction, at_wavelengths(given.single_scattering_albedo));
   }
   void add(Medium& m, const MieOpticalDepth& given, const MieSpheres* spheres) const {
-    const double length = column("optical_depth", given.value);
-    const std::vector<double> extinction =
-        mie_extinction(*spheres, given.at_nm, given.value / length);
-    const auto mie = mie_optics(*spheres, wavelengths_nm);
-    std::vector<double> albedo;
-    for (std::size_t w = 0; w < wavelengths_nm.size(); ++w)
-      albedo.push_back(std::min(1.0, mie->scattering_um2[w] / mie->extinction_um2[w]));
-    split(m, extinction, albedo);
+    const double extinction = given.value / column("optical_depth", given.value);
+    const double number = spheres_per_um2_km(*spheres, given.at_nm, extinction);
+    const MieOptics mie = mie_optics(*spheres, wavelengths_nm);
+    for (std::size_t w = 0; w < wavelengths_nm.size(); ++w) {
+      const double absorbing_um2 = mie.extinction_um2[w] - mie.scattering_um2[w];
+      m.scattering_per_km[w] = number * mie.scattering_um2[w];
+      m.absorption_per_km[w] = number * std::max(0.0, absorbing_um2);  // not -1e-17
+    }
   }
   void add(Medium& m, const Visibility& given, const MieSpheres* spheres) const {
     const double at_550_nm = visibility_optical_depth / given.visibility_km;
-    split(m,
-          spheres ? mie_extinction(*spheres, visibility_at_nm, at_550_nm)
-                  : std::vector<double>(wavelengths_nm.size(), at_550_nm),
-          at_wavelengths(given.single_scattering_albedo));
+    std::vector<double> extinction(wavelengths_nm.size(), at_550_nm);
+    if (spheres) {
+      const double number = spheres_per_um2_km(*spheres, visibility_at_nm, at_550_nm);
+      extinction = mie_optics(*spheres, wavelengths_nm).extinction_um2;
+      for (double& value : extinction) value *= number;
+    }
+    split(m, extinction, at_wavelengths(given.single_scattering_albedo));
   }
 
-  /// The spectrum of extinction of spheres that is `value` at `at_nm`.
-  std::vector<double> mie_extinction(const MieSpheres& spheres, double at_nm,
-                                     double value) const {
-    const double reference = mie_optics(spheres, {at_nm})->extinction_um2[0];
-    std::vector<double> extinction = mie_optics(spheres, wavelengths_nm)->extinction_um2;
-    for (double& cross_section : extinction) cross_section *= value / reference;
-    return extinction;
+  /// How many spheres it takes for an extinction at a wavelength, as a factor from
+  /// cross-sections in um^2 to coefficients per km.
+  double spheres_per_um2_km(const MieSpheres& spheres, double at_nm,
+                            double extinction_per_km) const {
+    const double each_um2 = mie_optics(spheres, {at_nm}).extinction_um2[0];
+    if (each_um2 > 0) return extinction_per_km / each_um2;
+    throw SceneError("/atmosphere/constituents/" + name + "/phase/refractive_index",
+                     nlohmann::json(spheres.refractive_index).dump(),
+                     "an index other than that of air, 1",
+                     "no number of such spheres has an optical depth");
   }
 };
 
@@ -339,6 +345,24 @@ Output make_output(const Scene& scene, const std::vector<double>& wavelengths_nm
   if (!(output.white_card > 0)) output.white_card = 1;  // all is black, at any exposure
   output.white_balance = white_balance(scene.image.white, sunlight_xyz);
   return output;
+}
+
+Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t count) {
+  Problem part = problem;
+  auto keep = [&](auto& by_wavelength) {
+    auto begin = by_wavelength.begin() + static_cast<std::ptrdiff_t>(first);
+    by_wavelength = {begin, begin + static_cast<std::ptrdiff_t>(count)};
+  };
+  keep(part.wavelengths_nm);
+  keep(part.ground_albedo);
+  keep(part.limb_darkening_exponent);
+  for (Medium& medium : part.media) {
+    keep(medium.scattering_per_km);
+    keep(medium.absorption_per_km);
+    if (auto* rayleigh = std::get_if<RayleighPhase>(&medium.phase)) keep(rayleigh->gamma);
+    if (auto* table = std::get_if<TabulatedPhase>(&medium.phase)) keep(table->values);
+  }
+  return part;
 }
 
 }  // namespace cyanometer

@@ -24,12 +24,14 @@ Rgbe to_rgbe(std::array<float, 3> rgb) {
   const float largest = std::max({rgb[0], rgb[1], rgb[2]});
   if (largest < 0x1p-127f) return {};
   int exponent = 0;
-  std::frexp(largest, &exponent);
-  if (std::lround(std::ldexp(largest, 8 - exponent)) == 256) ++exponent;
-  Rgbe result{0, 0, 0, static_cast<unsigned char>(exponent + 128)};
-  for (std::size_t c = 0; c < 3; ++c)
-    result[c] = static_cast<unsigned char>(std::lround(std::ldexp(rgb[c], 8 - exponent)));
-  return result;
+  if (std::frexp(largest, &exponent) >= 255.5f / 256)
+    ++exponent;  // its mantissa rounds up to 256
+  const float scale = std::ldexp(1.0f, 8 - exponent);
+  const auto mantissa = [scale](float v) {
+    return static_cast<unsigned char>(v * scale + 0.5f);
+  };
+  return {mantissa(rgb[0]), mantissa(rgb[1]), mantissa(rgb[2]),
+          static_cast<unsigned char>(exponent + 128)};
 }
 
 /// Runs as (128 + length, value), the rest as (length, values...).

@@ -1,10 +1,12 @@
 #include "engine/optics/mie.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <deque>
 #include <mutex>
 #include <numbers>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/optics/phase.h"
@@ -47,7 +49,8 @@ MieSeries small_sphere_series(double x, Complex m) {
 }  // namespace
 
 MieSeries mie_series(double x, Complex m) {
-  if (x < 0.01) return small_sphere_series(x, m);
+  if (m == 1.0) return {x, {0}, {0}};  // there is no sphere, and rounding must not leave one
+  if (x < 0.003) return small_sphere_series(x, m);
   const auto count = static_cast<std::size_t>(x + 4 * std::cbrt(x) + 2);
   const auto d = logarithmic_derivatives(m * x, count);
   MieSeries series{x, {}, {}};
@@ -150,7 +153,8 @@ Sphere solve(double size_parameter, Complex index) {
   Sphere sphere{extinction_efficiency(series), scattering_efficiency(series),
                 scattered_intensity(series, cosines)};
   const double x = series.size_parameter;
-  for (double& value : sphere.phase) value /= pi * x * x * sphere.scattering;
+  const double sum = pi * x * x * sphere.scattering;
+  for (double& value : sphere.phase) value = sum > 0 ? value / sum : 0;
   return sphere;
 }
 
@@ -192,6 +196,48 @@ Range important_sizes(const MieSpheres& s, double wavelength_um) {
   return {u(first - 1) + to_log_x, u(index(peak)) + to_log_x, u(last) + to_log_x};
 }
 
+/// Size parameters are those whose natural logarithm is a whole number of these steps, so that
+/// wavelengths, distributions and requests share spheres that were solved.
+constexpr double finest_step = 1.0 / 4096;
+const int largest_index = static_cast<int>(std::log(largest_size_parameter) / finest_step);
+
+/// The spheres of one refractive index solved so far; the latest few indices are kept.
+class SolvedSpheres {
+ public:
+  /// Calls function(index, sphere) for log size parameters index * finest_step, from first to
+  /// last.
+  template <class Function>
+  static void visit(Complex refractive_index, int first, int last, int stride,
+                    Function function) {
+    static std::mutex mutex;
+    static std::deque<SolvedSpheres> latest;
+    const std::lock_guard lock(mutex);
+    const auto found = std::ranges::find(latest, refractive_index, &SolvedSpheres::index_);
+    if (found != latest.end())
+      std::rotate(latest.begin(), found, found + 1);
+    else
+      latest.emplace_front(refractive_index);
+    constexpr std::size_t kept = 4;
+    if (latest.size() > kept) latest.pop_back();
+    for (int i = first; i <= last; i += stride)
+      function(i, latest.front().at(std::min(i, largest_index)));
+  }
+
+  explicit SolvedSpheres(Complex index) : index_(index) {}
+
+ private:
+  const Sphere& at(int i) {
+    constexpr std::size_t most = 8192;  // of 2 kB
+    if (spheres_.size() > most) spheres_.clear();
+    const auto found = spheres_.find(i);
+    if (found != spheres_.end()) return found->second;
+    return spheres_.emplace(i, solve(std::exp(i * finest_step), index_)).first->second;
+  }
+
+  Complex index_;
+  std::unordered_map<int, Sphere> spheres_;
+};
+
 /// Sums over spheres; cross-sections in um^2 and the phase function weighted by scattering.
 struct Sums {
   double extinction = 0, scattering = 0;
@@ -205,65 +251,41 @@ struct Sums {
   }
 };
 
-/// A grid of log size parameters with all that matter at any of the wavelengths, fine enough
-/// for the distribution and for the interference of a sphere's edges, as far as a bounded time
-/// allows.
-struct SizeGrid {
-  double first, step;
-  int count;
-
-  SizeGrid(const MieSpheres& s, const std::vector<double>& wavelengths_nm) {
-    const auto [shortest, longest] = std::ranges::minmax(wavelengths_nm);
-    const Range small = important_sizes(s, longest / 1000);
-    const Range large = important_sizes(s, shortest / 1000);
-    constexpr double most_terms = 2.5e5;  // of all series together
-    const double largest = std::exp(std::min(large.last, std::log(largest_size_parameter)));
-    step = std::min(std::log(s.geometric_sigma) / 4, 0.5 / std::exp(large.peak));
-    step = std::max({step, largest / most_terms, (large.last - small.first) / 2000});
-    first = small.first;
-    count = static_cast<int>(std::ceil((large.last - first) / step)) + 1;
-  }
-};
-
-MieOptics finish(const std::vector<Sums>& by_wavelength) {
-  MieOptics optics;
-  for (const Sums& sums : by_wavelength) {
-    optics.extinction_um2.push_back(sums.extinction);
-    optics.scattering_um2.push_back(sums.scattering);
-    optics.phase.push_back(normalised_phase(mie_angles_rad(), sums.phase));
-  }
-  return optics;
+/// Steps fine enough for the distribution and for the interference between light through a
+/// sphere and light around it, as far as a bounded time allows; a power of two of the finest.
+int stride_for(const MieSpheres& s, const Range& sizes) {
+  constexpr double most_terms = 1.5e5;  // of all series together
+  const double largest = std::exp(std::min(sizes.last, std::log(largest_size_parameter)));
+  const double step =
+      std::max(std::min(std::log(s.geometric_sigma) / 4, 0.4 / std::exp(sizes.peak)),
+               largest / most_terms);
+  return static_cast<int>(
+      std::bit_floor(static_cast<unsigned>(std::max(step / finest_step, 1.0))));
 }
 
-/// All wavelengths see the same grid of size parameters, so each sphere is solved once.
-MieOptics integrate_sizes(const MieSpheres& s, const std::vector<double>& wavelengths_nm) {
-  const SizeGrid grid(s, wavelengths_nm);
-  const Complex index(s.refractive_index[0], s.refractive_index[1]);
+Sums integrate_sizes(const MieSpheres& s, Complex index, double wavelength_um) {
+  const Range sizes = important_sizes(s, wavelength_um);
+  const int stride = stride_for(s, sizes);
+  const auto on_grid = [&](double log_x) {
+    return static_cast<int>(std::floor(log_x / (stride * finest_step))) * stride;
+  };
   const double deviation = std::log(s.geometric_sigma);
-  const double density = grid.step / (deviation * std::sqrt(2 * pi));
-  std::vector<Sums> sums(wavelengths_nm.size());
-  Sphere sphere;
-  for (int i = 0; i < grid.count; ++i) {
-    const double log_x = grid.first + i * grid.step;
-    if (i == 0 || log_x - grid.step < std::log(largest_size_parameter))
-      sphere = solve(std::exp(log_x), index);
-    for (std::size_t w = 0; w < sums.size(); ++w) {
-      const double radius = std::exp(log_x) * wavelengths_nm[w] / 1000 / (2 * pi);
-      const double z = std::log(radius / s.radius_um) / deviation;
-      const double part = density * std::exp(-0.5 * z * z);
-      if (part > 0) sums[w].add(sphere, part * pi * radius * radius);
-    }
-  }
-  return finish(sums);
+  const double density = stride * finest_step / (deviation * std::sqrt(2 * pi));
+  Sums sums;
+  SolvedSpheres::visit(
+      index, on_grid(sizes.first), on_grid(sizes.last) + stride, stride,
+      [&](int i, const Sphere& sphere) {
+        const double radius = std::exp(i * finest_step) * wavelength_um / (2 * pi);
+        const double z = std::log(radius / s.radius_um) / deviation;
+        sums.add(sphere, density * std::exp(-0.5 * z * z) * pi * radius * radius);
+      });
+  return sums;
 }
 
-MieOptics single_size(const MieSpheres& s, const std::vector<double>& wavelengths_nm) {
-  const Complex index(s.refractive_index[0], s.refractive_index[1]);
-  std::vector<Sums> sums(wavelengths_nm.size());
-  for (std::size_t w = 0; w < sums.size(); ++w)
-    sums[w].add(solve(2 * pi * s.radius_um * 1000 / wavelengths_nm[w], index),
-                pi * s.radius_um * s.radius_um);
-  return finish(sums);
+Sums one_size(const MieSpheres& s, Complex index, double wavelength_um) {
+  Sums sums;
+  sums.add(solve(2 * pi * s.radius_um / wavelength_um, index), pi * s.radius_um * s.radius_um);
+  return sums;
 }
 
 }  // namespace
@@ -282,35 +304,16 @@ const std::vector<double>& mie_angles_rad() {
   return angles;
 }
 
-std::shared_ptr<const MieOptics> mie_optics(const MieSpheres& spheres,
-                                            const std::vector<double>& wavelengths_nm) {
-  struct Answer {
-    MieSpheres spheres;
-    std::vector<double> wavelengths_nm;
-    std::shared_ptr<const MieOptics> optics;
-  };
-  constexpr std::size_t kept = 16;
-  static std::mutex mutex;
-  static std::deque<Answer> answers;  // the latest first
-
-  const auto same = [&](const Answer& a) {
-    return a.spheres == spheres && a.wavelengths_nm == wavelengths_nm;
-  };
-  {
-    const std::lock_guard lock(mutex);
-    const auto found = std::ranges::find_if(answers, same);
-    if (found != answers.end()) {
-      std::rotate(answers.begin(), found, found + 1);
-      return answers.front().optics;
-    }
+MieOptics mie_optics(const MieSpheres& spheres, const std::vector<double>& wavelengths_nm) {
+  const Complex index(spheres.refractive_index[0], spheres.refractive_index[1]);
+  const bool alike = std::log(spheres.geometric_sigma) < 4 * finest_step;
+  MieOptics optics;
+  for (double nm : wavelengths_nm) {
+    const Sums sums = (alike ? one_size : integrate_sizes)(spheres, index, nm / 1000);
+    optics.extinction_um2.push_back(sums.extinction);
+    optics.scattering_um2.push_back(sums.scattering);
+    optics.phase.push_back(normalised_phase(mie_angles_rad(), sums.phase));
   }
-  const bool one_size = spheres.geometric_sigma <= 1;
-  auto optics =
-      std::make_shared<const MieOptics>(one_size ? single_size(spheres, wavelengths_nm)
-                                                 : integrate_sizes(spheres, wavelengths_nm));
-  const std::lock_guard lock(mutex);
-  answers.push_front({spheres, wavelengths_nm, optics});
-  if (answers.size() > kept) answers.pop_back();
   return optics;
 }
 

@@ -20,7 +20,7 @@ struct Bin {
 // 375 to 835 nm: averages over 10 nm of Serdyuchenko et al. (2014, AMT 7, 625), 233 K, as
 // published
 //   with Bruneton (2017), "Precomputed Atmospheric Scattering: a New Implementation".
-constexpr std::array<Bin, 133> bins{{
+constexpr auto bins = std::to_array<Bin>({
     {176.215, 8.11e-23},  {177.781, 7.99e-23},  {179.376, 7.86e-23},
     {180.999, 7.63e-23},  {182.652, 7.29e-23},  {184.336, 6.88e-23},
     {186.051, 6.22e-23},  {187.798, 5.76e-23},  {189.578, 5.26e-23},
@@ -64,7 +64,7 @@ constexpr std::array<Bin, 133> bins{{
     {765, 2.451e-26},     {775, 2.801e-26},     {785, 2.534e-26},
     {795, 1.624e-26},     {805, 1.465e-26},     {815, 2.078e-26},
     {825, 1.383e-26},     {835, 7.105e-27},     {850, 0},
-}};
+});
 
 }  // namespace
 

@@ -6,17 +6,23 @@
 namespace cyanometer {
 namespace {
 
-/// The integral over `length` of a density that goes from `a` to `b`, linear in its logarithm,
-/// or linear where one of them is 0.
-double segment(double a, double b, double length) {
-  if (a <= 0 || b <= 0) return 0.5 * (a + b) * length;
-  const double log_ratio = std::log(b / a);
-  return a * length * (log_ratio == 0 ? 1 : std::expm1(log_ratio) / log_ratio);
-}
+/// Density between two samples of a table.
+struct Segment {
+  double h0, h1, d0, d1;
 
-double between(double a, double b, double t) {
-  return a <= 0 || b <= 0 ? std::lerp(a, b, t) : a * std::pow(b / a, t);
-}
+  bool linear() const { return d0 <= 0 || d1 <= 0; }
+  double density(double h) const {
+    const double t = (h - h0) / (h1 - h0);
+    return linear() ? std::lerp(d0, d1, t) : d0 * std::pow(d1 / d0, t);
+  }
+  double integral(double from, double to) const {
+    if (to <= from) return 0;
+    const double a = density(from), b = density(to);
+    if (linear()) return 0.5 * (a + b) * (to - from);
+    const double log_ratio = std::log(b / a);
+    return a * (to - from) * (log_ratio == 0 ? 1 : std::expm1(log_ratio) / log_ratio);
+  }
+};
 
 struct Column {
   double top_km;
@@ -43,16 +49,9 @@ struct Column {
     if (maximum <= 0) return 0;
     const auto& h = p.altitude_km;
     double sum = p.density.front() * std::clamp(h.front(), 0.0, top_km);
-    for (std::size_t i = 1; i < h.size(); ++i) {
-      const double low = std::clamp(h[i - 1], 0.0, top_km),
-                   high = std::clamp(h[i], 0.0, top_km);
-      if (high <= low) continue;
-      const auto density = [&](double altitude) {
-        return between(p.density[i - 1], p.density[i],
-                       (altitude - h[i - 1]) / (h[i] - h[i - 1]));
-      };
-      sum += segment(density(low), density(high), high - low);
-    }
+    for (std::size_t i = 1; i < h.size(); ++i)
+      sum += Segment{h[i - 1], h[i], p.density[i - 1], p.density[i]}.integral(
+          std::clamp(h[i - 1], 0.0, top_km), std::clamp(h[i], 0.0, top_km));
     return sum / maximum;
   }
 };

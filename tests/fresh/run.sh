@@ -41,7 +41,9 @@ new_machine() {
   mount --make-rslave "$machine/dev"
   if [[ $1 != root ]]; then
     chroot "$machine" useradd --create-home "$1"
-    chroot "$machine" apt-get -q -y --no-install-recommends install sudo
+    chroot "$machine" apt-get -q update
+    DEBIAN_FRONTEND=noninteractive chroot "$machine" apt-get -q -y --no-install-recommends \
+      install sudo
     echo "$1 ALL=(ALL) NOPASSWD: ALL" >"$machine/etc/sudoers.d/$1"
   fi
   home=$machine$(home_of "$1")

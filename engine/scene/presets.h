@@ -1,0 +1,17 @@
+// Presets as documents on top of which others are merged. Internal to engine/scene.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace cyanometer {
+
+/// The preset merged over those that it starts from, down to `earth`; it has no `preset`
+/// itself.
+const nlohmann::json& expanded_preset(std::string_view name);
+
+/// The document merged over its preset.
+/// @throws SceneError where it is no object or names no preset
+nlohmann::json expanded(const nlohmann::json& document);
+
+}  // namespace cyanometer
