@@ -1,0 +1,25 @@
+// The contract's measure of how wrong a frame is.
+#pragma once
+
+#include <vector>
+
+namespace cyanometer {
+
+struct ErrorMeasure {
+  double error = 0;  ///< max(rms of d, 99th percentile of |d| / 3)
+  double bias = 0;   ///< mean of d
+  double p99 = 0;    ///< of |d|
+  double max = 0;    ///< of |d|
+};
+
+/// d = (L - L_ref) / (max(L, L_ref) + 0.01 M_c) over pixels and channels, M_c the median of the
+/// positive L_ref of channel c; 0 where a channel is 0 in both everywhere.
+/// @param values, reference  [pixel][channel], of the same shape: the pixels that meet air or ground
+ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
+                           const std::vector<std::vector<double>>& reference);
+
+/// d of each pixel and channel, by the same rule; [pixel * channels + channel].
+std::vector<double> relative_differences(const std::vector<std::vector<double>>& values,
+                                         const std::vector<std::vector<double>>& reference);
+
+}  // namespace cyanometer

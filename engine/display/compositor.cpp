@@ -1,0 +1,151 @@
+#include "engine/display/compositor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spirv/compose.spv.h"
+#include "spirv/display.spv.h"
+#include "spirv/stars.spv.h"
+
+namespace cyanometer {
+namespace {
+
+struct ComposePush {
+  std::array<float, 4> inscatter, ground, sun, transmittance;
+  std::int32_t first_ray, rays_in_tile, first_row, mark_outside;
+};
+struct StarsPush {
+  std::int32_t first_ray, rays_in_tile, first_row, first_star, stars, planes;
+};
+struct DisplayPush {
+  std::array<std::array<float, 4>, 3> rows;
+  std::int32_t first, end;
+};
+
+/// Rows of all groups, one after another, in groups of four wavelengths.
+std::vector<glm::vec4> matrix_rows(const std::vector<PlaneGroup>& groups, int wavelength_groups) {
+  std::vector<glm::vec4> matrix;
+  for (const PlaneGroup& group : groups) {
+    for (const std::vector<double>& row : group.rows) {
+      for (int g = 0; g < wavelength_groups; ++g) {
+        glm::vec4 part(0);
+        for (int lane = 0; lane < 4; ++lane) {
+          std::size_t w = static_cast<std::size_t>(4 * g + lane);
+          if (w < row.size()) part[lane] = static_cast<float>(row[w]);
+        }
+        matrix.push_back(part);
+      }
+    }
+  }
+  return matrix;
+}
+
+template <typename T>
+vulkan::Buffer upload(vulkan::Device& device, const std::vector<T>& values) {
+  auto bytes = std::as_bytes(std::span(values));
+  vulkan::Buffer buffer(device, bytes.size(), vulkan::Memory::device);
+  buffer.write(0, bytes);
+  return buffer;
+}
+
+}  // namespace
+
+FrameStore::FrameStore(vulkan::Device& device, std::size_t pixels_, std::size_t groups,
+                       bool displayed)
+    : pixels(pixels_) {
+  std::size_t alignment = std::max<std::size_t>(device.limits().storage_alignment, 64);
+  stride = (pixels * sizeof(float) + alignment - 1) / alignment * alignment / sizeof(float);
+  for (std::size_t g = 0; g < groups; ++g) {
+    buffers.emplace_back(device, 4 * stride * sizeof(float), vulkan::Memory::host);
+  }
+  if (displayed) rgbx.emplace_back(device, pixels * 4, vulkan::Memory::host);
+}
+
+vulkan::Binding FrameStore::plane(std::size_t group, std::size_t k) const {
+  return {buffers[group], k * stride * sizeof(float), pixels * sizeof(float)};
+}
+
+std::span<const float> FrameStore::samples(std::size_t group, std::size_t k) const {
+  return buffers[group].as<const float>().subspan(k * stride, pixels);
+}
+
+double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
+  constexpr double middle_grey = 0.18;
+  // A sample of the pixels is as good: their mean varies far less than an eye can tell.
+  std::size_t step = std::max<std::size_t>(luminance.size() / 65536, 1) | 1;
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < luminance.size(); i += step) {
+    if (luminance[i] > 0) {
+      sum += std::log2(luminance[i]);
+      ++count;
+    }
+  }
+  return count > 0 ? std::log2(middle_grey * white_card) - sum / count : 0;
+}
+
+Compositor::Compositor(vulkan::Device& device)
+    : compose_(device, compose_spirv, UploadedScene::bindings + 6, sizeof(ComposePush)),
+      stars_(device, stars_spirv, UploadedScene::bindings + 8, sizeof(StarsPush)),
+      display_(device, display_spirv, 4, sizeof(DisplayPush)) {}
+
+Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
+                                    const std::vector<PlaneGroup>& groups,
+                                    const StarPixels& stars) {
+  Job job{scene, groups, stars, upload(device, matrix_rows(groups, scene.groups())), {}};
+  if (!stars.pixels.empty()) {
+    job.star_buffers.push_back(upload(device, stars.pixels));
+    job.star_buffers.push_back(upload(device, stars.radiance));
+  }
+  return job;
+}
+
+void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
+                         const FrameStore& store) {
+  auto first = std::lower_bound(job.stars.pixels.begin(), job.stars.pixels.end(), tile.first_ray);
+  auto end = std::lower_bound(first, job.stars.pixels.end(), tile.first_ray + tile.rays);
+  int stars = static_cast<int>(end - first);
+  for (std::size_t g = 0; g < job.groups.size(); ++g) {
+    const PlaneGroup& group = job.groups[g];
+    std::vector<vulkan::Binding> bindings =
+        job.scene.bind({tile.values, job.matrix, store.plane(g, 0), store.plane(g, 1),
+                        store.plane(g, 2), store.plane(g, 3)});
+    int first_row = static_cast<int>(4 * g);
+    ComposePush push{group.inscatter, group.ground,  group.sun, group.transmittance,
+                     tile.first_ray,  tile.rays,     first_row, g == 0};
+    commands.dispatch(compose_, job.scene.constants(), bindings, vulkan::bytes_of(push),
+                      {vulkan::groups_for(tile.rays, 64)});
+    if (!group.stars || stars == 0) continue;
+    bindings.push_back(job.star_buffers[0]);
+    bindings.push_back(job.star_buffers[1]);
+    StarsPush stars_push{tile.first_ray, tile.rays,
+                         first_row,      static_cast<int>(first - job.stars.pixels.begin()),
+                         stars,          static_cast<int>(group.channels.size())};
+    commands.dispatch(stars_, job.scene.constants(), bindings, vulkan::bytes_of(stars_push),
+                      {vulkan::groups_for(stars, 64)});
+  }
+}
+
+void Compositor::display(Tracer& tracer, const Image& image, const Output& output,
+                         double exposure_ev, const FrameStore& store) {
+  constexpr int pixels_at_once = 1 << 20;
+  double scale = std::exp2(exposure_ev) / output.white_card;
+  DisplayPush push{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      push.rows[row][c] = static_cast<float>(scale * output.white_balance[3 * row + c]);
+    }
+  }
+  vulkan::Specialization constants{static_cast<std::uint32_t>(image.tone_map),
+                                   image.show.clipped};
+  int pixels = static_cast<int>(store.pixels);
+  for (push.first = 0; push.first < pixels; push.first = push.end) {
+    push.end = std::min(push.first + pixels_at_once, pixels);
+    tracer.commands.dispatch(
+        display_, constants,
+        {store.plane(0, 0), store.plane(0, 1), store.plane(0, 2), store.rgbx.front()},
+        vulkan::bytes_of(push), {vulkan::groups_for(push.end - push.first, 64)});
+    tracer.submit();
+  }
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,57 @@
+// From the spectral quantities of tiles to the planes of a frame, and from those to displayed pixels.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/display/planes.h"
+#include "engine/methods/method.h"
+#include "engine/sky/stars.h"
+
+namespace cyanometer {
+
+/// A frame's planes on the device; the host reads them in place.
+struct FrameStore {
+  /// @param groups  of planes
+  FrameStore(vulkan::Device& device, std::size_t pixels, std::size_t groups, bool displayed);
+
+  vulkan::Binding plane(std::size_t group, std::size_t k) const;
+  std::span<const float> samples(std::size_t group, std::size_t k) const;
+
+  std::size_t pixels;
+  std::size_t stride;                   ///< floats from one plane to the next
+  std::vector<vulkan::Buffer> buffers;  ///< four planes each
+  std::vector<vulkan::Buffer> rgbx;     ///< none where nothing is displayed
+};
+
+/// Exposure at which the geometric mean of the luminance is shown as middle grey; 0 of a black frame.
+/// @param luminance  of each pixel; what is not positive does not count
+/// @param white_card  luminance that is shown as 1 at exposure 0
+double automatic_exposure_ev(std::span<const float> luminance, double white_card);
+
+class Compositor {
+ public:
+  explicit Compositor(vulkan::Device& device);
+
+  /// What is composed is the same for all tiles of a frame.
+  struct Job {
+    const UploadedScene& scene;
+    const std::vector<PlaneGroup>& groups;
+    const StarPixels& stars;
+    vulkan::Buffer matrix;
+    std::vector<vulkan::Buffer> star_buffers;  ///< pixels and radiances; none without stars
+  };
+  Job prepare(vulkan::Device& device, const UploadedScene& scene,
+              const std::vector<PlaneGroup>& groups, const StarPixels& stars);
+  /// Records the planes of one tile.
+  void compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
+               const FrameStore& store);
+  /// Fills `store.rgbx` from the first group's planes.
+  void display(Tracer& tracer, const Image& image, const Output& output, double exposure_ev,
+               const FrameStore& store);
+
+ private:
+  vulkan::Kernel compose_, stars_, display_;
+};
+
+}  // namespace cyanometer

@@ -1,0 +1,115 @@
+#include "engine/display/planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace cyanometer {
+namespace {
+
+enum Quantity { inscatter = 1, ground = 2, sun = 4, transmittance = 8 };
+
+void set_weights(PlaneGroup& group, int quantities, std::size_t planes) {
+  for (std::size_t k = 0; k < planes; ++k) {
+    group.inscatter[k] = quantities & inscatter ? 1.f : 0.f;
+    group.ground[k] = quantities & ground ? 1.f : 0.f;
+    group.sun[k] = quantities & sun ? 1.f : 0.f;
+    group.transmittance[k] = quantities & transmittance ? 1.f : 0.f;
+  }
+}
+
+/// What an image shows of the light that there is.
+int shown(const Problem& problem) {
+  int quantities = 0;
+  if (problem.scattering_orders != 0) {
+    quantities |= inscatter | (problem.show.ground ? ground : 0);
+  }
+  if (problem.show.sun) quantities |= sun;
+  return quantities;
+}
+
+std::string wavelength_name(double nm) {
+  std::ostringstream name;
+  name << nm << "nm";
+  return name.str();
+}
+
+/// Transmittance in a channel is that of the sun's own light: rows over their sums.
+std::vector<double> normalised(std::vector<double> row) {
+  double sum = 0;
+  for (double x : row) sum += x;
+  for (double& x : row) x = sum != 0 ? x / sum : 0;
+  return row;
+}
+
+PlaneGroup rgb_group(const Output& output, int quantities, const std::string& prefix) {
+  PlaneGroup group;
+  for (std::size_t c = 0; c < 3; ++c) {
+    group.channels.push_back(prefix + "RGB"[c]);
+    group.rows[c] =
+        quantities & transmittance ? normalised(output.rgb[c]) : output.rgb[c];
+  }
+  set_weights(group, quantities, 3);
+  return group;
+}
+
+std::vector<PlaneGroup> spectral_groups(const Problem& problem, const Output& output,
+                                        int quantities, const std::string& prefix) {
+  std::vector<PlaneGroup> groups;
+  std::size_t count = problem.wavelengths_nm.size();
+  for (std::size_t first = 0; first < count; first += 4) {
+    PlaneGroup& group = groups.emplace_back();
+    for (std::size_t w = first; w < std::min(first + 4, count); ++w) {
+      std::vector<double>& row = group.rows[w - first];
+      row.assign(count, 0.0);
+      row[w] = quantities & transmittance ? 1 : output.irradiance[w];
+      group.channels.push_back(prefix + wavelength_name(problem.wavelengths_nm[w]));
+    }
+    set_weights(group, quantities, group.channels.size());
+  }
+  return groups;
+}
+
+PlaneGroup image_group(const Scene& scene, const Problem& problem, const Output& output) {
+  PlaneGroup group = rgb_group(output, shown(problem), "");
+  group.stars = problem.show.stars;
+  std::vector<double>& luminance = group.rows[3];
+  luminance = output.xyz[1];
+  if (scene.spectrum.colour == Colour::channels) {
+    for (std::size_t w = 0; w < luminance.size(); ++w) {
+      luminance[w] = (output.xyz[0][w] + output.xyz[1][w] + output.xyz[2][w]) / 3;
+    }
+  }
+  group.inscatter[3] = group.inscatter[0];
+  group.ground[3] = group.ground[0];
+  return group;
+}
+
+}  // namespace
+
+std::vector<PlaneGroup> plane_groups(const Scene& scene, const Problem& problem,
+                                     const Output& output) {
+  std::vector<PlaneGroup> groups{image_group(scene, problem, output)};
+  bool spectral = scene.image.channels == Channels::spectral;
+  auto add = [&](int quantities, const std::string& prefix, bool stars) {
+    if (!spectral) {
+      groups.push_back(rgb_group(output, quantities, prefix));
+      groups.back().stars = stars;
+      return;
+    }
+    for (PlaneGroup& group : spectral_groups(problem, output, quantities, prefix)) {
+      group.stars = stars;
+      groups.push_back(std::move(group));
+    }
+  };
+  int show = shown(problem);
+  if (spectral) add(show, "", problem.show.stars);
+  const Layers& layers = scene.image.layers;
+  if (layers.transmittance) add(transmittance, "transmittance.", false);
+  if (layers.inscatter) add(inscatter & show, "inscatter.", false);
+  if (layers.ground) add(ground & show, "ground.", false);
+  if (layers.sun) add(sun & show, "sun.", problem.show.stars);
+  return groups;
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,384 @@
+#include "engine/engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/display/compositor.h"
+#include "engine/image/encode.h"
+#include "engine/irradiance.h"
+#include "engine/methods/method.h"
+#include "engine/optics/colour.h"
+#include "engine/planner/planner.h"
+#include "engine/problem.h"
+#include "engine/scene/document.h"
+
+namespace cyanometer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Samples = std::vector<std::vector<double>>;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+glm::dvec3 unit_vector(const Direction& d) {
+  double elevation = glm::radians(d.elevation_deg), azimuth = glm::radians(d.azimuth_deg);
+  return {std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
+          std::sin(elevation)};
+}
+
+/// Some 256 of the frame's rays, one from each cell of an even grid, off its centre so that no row or
+/// column of the picture is looked at twice as often as another.
+std::vector<glm::dvec3> probe_directions(const Physics<double>& camera) {
+  constexpr int side = 16;
+  int width = camera.scene.width, height = camera.scene.height;
+  int columns = std::min(side, width), rows = std::min(side, height);
+  std::vector<glm::dvec3> directions;
+  for (int cell = 0; cell < columns * rows; ++cell) {
+    // Additive recurrence on the plastic number: evenly spread offsets without a random number.
+    double u = std::fmod(0.5 + cell * 0.7548776662466927, 1.0);
+    double v = std::fmod(0.5 + cell * 0.5698402909980532, 1.0);
+    int x = static_cast<int>((cell % columns + u) / columns * width);
+    int y = static_cast<int>((cell / columns + v) / rows * height);
+    auto ray = camera.pixel_ray(std::min(y, height - 1) * width + std::min(x, width - 1));
+    if (ray.inside && camera.meets_planet(camera.path_from_camera(ray.direction))) {
+      directions.push_back(ray.direction);
+    }
+  }
+  return directions;
+}
+
+/// Radiance of the channels in which errors are measured: X, Y, Z or the wavelengths themselves.
+Samples in_error_channels(const Samples& radiance, const Scene& scene, const Output& output) {
+  if (scene.spectrum.colour != Colour::cie) return radiance;
+  Samples result;
+  for (const std::vector<double>& ray : radiance) {
+    std::vector<double>& xyz = result.emplace_back(3, 0.0);
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t w = 0; w < ray.size(); ++w) xyz[c] += output.xyz[c][w] * ray[w];
+    }
+  }
+  return result;
+}
+
+std::string describe(const Scene& scene, const Plan& plan) {
+  nlohmann::json document{{"scene", canonical(scene)},
+                          {"method", plan.method},
+                          {"options", plan.options},
+                          {"wavelengths_nm", plan.wavelengths_nm},
+                          {"error", plan.expected_error},
+                          {"version", version()}};
+  return document.dump();
+}
+
+}  // namespace
+
+Cancelled::Cancelled(Reason r)
+    : std::runtime_error(r == Reason::deadline ? "the deadline has passed"
+                                               : "nobody waits for the result"),
+      reason(r) {}
+
+OverLimit::OverLimit(std::string pointer_, const std::string& detail)
+    : std::runtime_error(detail), pointer(std::move(pointer_)) {}
+
+void Watch::check() const {
+  if (gone()) throw Cancelled(Cancelled::Reason::client_gone);
+  if (Clock::now() > deadline) throw Cancelled(Cancelled::Reason::deadline);
+}
+
+/// What lives as long as the device.
+struct Engine::Parts {
+  explicit Parts(const EngineOptions& options)
+      : device(options.device),
+        commands(device),
+        pacer(options.longest_dispatch_ms),
+        methods(make_methods(device)),
+        compositor(device) {}
+
+  vulkan::Device device;
+  vulkan::Commands commands;
+  Pacer pacer;
+  std::vector<std::unique_ptr<Method>> methods;
+  Compositor compositor;
+  DeviceDescription description;
+
+  Method& method(const std::string& name) {
+    for (auto& m : methods) {
+      if (m->description().name == name) return *m;
+    }
+    throw std::logic_error("no method is called " + name);
+  }
+
+  struct Traced {
+    Samples radiance, transmittance;  ///< [ray][wavelength], radiance per unit irradiance
+    double device_ms = 0;
+  };
+
+  /// Calls `visit` for every tile once it is traced.
+  template <typename Visit>
+  void trace_tiles(Tracer& tracer, Method& method, const MethodOptions& options,
+                   const UploadedScene& scene, int rays, Visit visit) {
+    int at_once = std::min(method.rays_at_once(scene, options, pacer), rays);
+    vulkan::Buffer values(device, Tile::bytes(scene.groups(), at_once), vulkan::Memory::host);
+    for (int first = 0; first < rays; first += at_once) {
+      Tile tile{first, std::min(at_once, rays - first), values};
+      method.trace(tracer, scene, options, tile);
+      visit(tile);
+      tracer.watch.progress(static_cast<double>(tile.first_ray + tile.rays) / rays);
+    }
+  }
+
+  Traced trace_directions(const Problem& problem, const std::vector<glm::dvec3>& directions,
+                          const std::string& method_name, const MethodOptions& options,
+                          const Watch& watch) {
+    Traced traced;
+    if (directions.empty()) return traced;
+    Physics<float> physics = pack<float>(problem);
+    set_directions(physics, directions);
+    UploadedScene scene(device, physics);
+    Tracer tracer{device, commands, pacer, watch};
+    std::size_t wavelengths = problem.wavelengths_nm.size();
+    bool scattered = problem.scattering_orders != 0;
+    trace_tiles(tracer, method(method_name), options, scene,
+                static_cast<int>(directions.size()), [&](const Tile& tile) {
+                  auto values = tile.values.as<const glm::vec4>();
+                  auto value = [&](int quantity, std::size_t w, int ray) -> double {
+                    std::size_t plane = quantity * scene.groups() + w / 4;
+                    return values[plane * tile.rays + ray][static_cast<int>(w % 4)];
+                  };
+                  for (int ray = 0; ray < tile.rays; ++ray) {
+                    auto& radiance = traced.radiance.emplace_back(wavelengths, 0.0);
+                    auto& transmittance = traced.transmittance.emplace_back(wavelengths);
+                    for (std::size_t w = 0; w < wavelengths; ++w) {
+                      if (scattered) radiance[w] = value(0, w, ray) + value(1, w, ray);
+                      transmittance[w] = value(2, w, ray);
+                    }
+                  }
+                });
+    traced.device_ms = tracer.device_ms;
+    return traced;
+  }
+
+  Plan plan(const Scene& scene, const std::vector<glm::dvec3>& directions, double rays,
+            const Watch& watch) {
+    TraceProbe probe = [&](const std::string& name, const MethodOptions& options,
+                           const std::vector<double>& wavelengths) {
+      Problem problem = make_problem(scene, wavelengths);
+      Watch quiet = watch;
+      quiet.progress = [](double) {};
+      Traced traced = trace_directions(problem, directions, name, options, quiet);
+      return in_error_channels(traced.radiance, scene, make_output(scene, wavelengths));
+    };
+    return make_plan({scene, rays, scene.sun.disc_samples,
+                      static_cast<int>(scene.atmosphere.constituents.size()), probe});
+  }
+
+  Plan plan_frame(const Scene& scene, const Watch& watch) {
+    Physics<double> camera = pack<double>(make_problem(scene, colour_wavelengths_of(scene)));
+    double rays = static_cast<double>(scene.image.width) * scene.image.height;
+    return plan(scene, probe_directions(camera), rays, watch);
+  }
+
+  static std::vector<double> colour_wavelengths_of(const Scene& scene) {
+    return scene.spectrum.wavelengths_nm.empty() ? colour_wavelengths(4)
+                                                 : scene.spectrum.wavelengths_nm;
+  }
+
+  void trace_frame(const Scene& scene, const Problem& problem, const Plan& plan,
+                   const std::vector<PlaneGroup>& groups, const Watch& watch, Frame& frame,
+                   FrameStore& store);
+  void display(const Scene& scene, const Output& output, const Watch& watch, Frame& frame,
+               FrameStore& store);
+};
+
+Engine::Engine(const EngineOptions& options) : parts_(std::make_unique<Parts>(options)) {
+  const vulkan::DeviceInfo& info = parts_->device.info();
+  parts_->description = {info.name, info.driver, info.api_version, info.type, true, info.why};
+}
+Engine::~Engine() = default;
+Engine::Engine(Engine&&) noexcept = default;
+
+const DeviceDescription& Engine::device() const { return parts_->description; }
+
+Plan Engine::plan(const Scene& scene, const Watch& watch) {
+  return parts_->plan_frame(scene, watch);
+}
+
+void Engine::Parts::trace_frame(const Scene& scene, const Problem& problem, const Plan& plan,
+                                const std::vector<PlaneGroup>& groups, const Watch& watch,
+                                Frame& frame, FrameStore& store) {
+  UploadedScene uploaded(device, pack<float>(problem));
+  StarPixels stars;
+  if (scene.image.show.stars) stars = star_pixels(problem, pack<double>(problem));
+  Compositor::Job job = compositor.prepare(device, uploaded, groups, stars);
+  Tracer tracer{device, commands, pacer, watch};
+  trace_tiles(tracer, method(plan.method), plan.options, uploaded,
+              static_cast<int>(store.pixels), [&](const Tile& tile) {
+                compositor.compose(commands, job, tile, store);
+                tracer.submit();
+              });
+  frame.render_ms += tracer.device_ms;
+}
+
+void Engine::Parts::display(const Scene& scene, const Output& output, const Watch& watch,
+                            Frame& frame, FrameStore& store) {
+  frame.exposure_ev = scene.image.exposure_ev
+                          ? *scene.image.exposure_ev
+                          : automatic_exposure_ev(store.samples(0, 3), output.white_card);
+  if (store.rgbx.empty()) return;
+  Tracer tracer{device, commands, pacer, watch};
+  compositor.display(tracer, scene.image, output, frame.exposure_ev, store);
+  frame.rgbx = store.rgbx.front().as<const unsigned char>().data();
+  frame.render_ms += tracer.device_ms;
+}
+
+Frame Engine::render(const Scene& scene, const Watch& watch) {
+  auto start = Clock::now();
+  Frame frame;
+  frame.width = scene.image.width;
+  frame.height = scene.image.height;
+  frame.plan = parts_->plan_frame(scene, watch);
+  Problem problem = make_problem(scene, frame.plan.wavelengths_nm);
+  Output output = make_output(scene, frame.plan.wavelengths_nm);
+  std::vector<PlaneGroup> groups = plane_groups(scene, problem, output);
+  auto store = std::make_shared<FrameStore>(
+      parts_->device, static_cast<std::size_t>(frame.width) * frame.height, groups.size(),
+      encoding(scene.image.format).displayed);
+  frame.prepare_ms = ms_since(start);
+  auto rendering = Clock::now();
+  parts_->trace_frame(scene, problem, frame.plan, groups, watch, frame, *store);
+  parts_->display(scene, output, watch, frame, *store);
+  frame.render_ms = ms_since(rendering);
+  bool rgb = scene.image.channels == Channels::rgb;
+  for (std::size_t g = rgb ? 0 : 1; g < groups.size(); ++g) {
+    for (std::size_t k = 0; k < groups[g].channels.size(); ++k) {
+      frame.planes.push_back({groups[g].channels[k], store->samples(g, k).data()});
+    }
+  }
+  frame.white_luminance =
+      rgb && scene.spectrum.colour == Colour::cie ? output.white_luminance : 0;
+  frame.description = describe(scene, frame.plan);
+  frame.storage = store;
+  return frame;
+}
+
+namespace {
+
+/// Direct irradiance on a horizontal plane at the camera, per unit of the sun's.
+std::vector<double> direct_irradiance(const Physics<double>& physics,
+                                      const std::vector<double>& transmittance) {
+  glm::dvec3 camera(0, 0, physics.scene.planet_radius_km + physics.scene.camera_altitude_km);
+  auto sun = physics.sun_ray(camera, glm::dvec3(0));
+  bool lit = sun.direction.z > 0 &&
+             !physics.path_from_camera(sun.direction).meets_ground;
+  std::vector<double> direct(transmittance.size(), 0.0);
+  for (std::size_t w = 0; lit && w < direct.size(); ++w) {
+    direct[w] = transmittance[w] * sun.irradiance * sun.direction.z;
+  }
+  return direct;
+}
+
+std::vector<double> weighted_sum(const Samples& radiance, const std::vector<double>& weights,
+                                 std::size_t wavelengths) {
+  std::vector<double> sum(wavelengths, 0.0);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    for (std::size_t w = 0; w < wavelengths; ++w) sum[w] += weights[i] * radiance[i][w];
+  }
+  return sum;
+}
+
+void scale_by(const std::vector<double>& irradiance, Samples& radiance) {
+  for (auto& ray : radiance) {
+    for (std::size_t w = 0; w < ray.size(); ++w) ray[w] *= irradiance[w];
+  }
+}
+
+}  // namespace
+
+Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& directions,
+                           bool irradiance, const Watch& watch) {
+  auto start = Clock::now();
+  // Errors of radiances are always by wavelength.
+  Scene spectral = scene;
+  spectral.spectrum.colour = Colour::channels;
+  std::vector<glm::dvec3> rays;
+  for (const Direction& d : directions) rays.push_back(unit_vector(d));
+  std::vector<glm::dvec3> probe(rays.begin(),
+                                rays.begin() + std::min<std::ptrdiff_t>(256, std::ssize(rays)));
+  Radiances result;
+  if (scene.spectrum.wavelengths_nm.empty()) {
+    spectral.spectrum.wavelengths_nm = colour_wavelengths(16);
+  }
+  result.plan = parts_->plan(spectral, probe, static_cast<double>(rays.size()), watch);
+  result.wavelengths_nm = result.plan.wavelengths_nm;
+  Problem problem = make_problem(scene, result.wavelengths_nm);
+  std::vector<double> sunlight = make_output(scene, result.wavelengths_nm).irradiance;
+  result.prepare_ms = ms_since(start);
+  auto rendering = Clock::now();
+  auto trace = [&](const std::vector<glm::dvec3>& towards) {
+    return parts_->trace_directions(problem, towards, result.plan.method, result.plan.options,
+                                    watch);
+  };
+  Parts::Traced traced = trace(rays);
+  result.radiance = std::move(traced.radiance);
+  result.transmittance = std::move(traced.transmittance);
+  scale_by(sunlight, result.radiance);
+  if (irradiance) {
+    Physics<double> physics = pack<double>(problem);
+    glm::dvec3 camera(0, 0, problem.planet_radius_km + problem.camera.altitude_km);
+    HemisphereRule sky = hemisphere_rule(problem, true), below = hemisphere_rule(problem, false);
+    std::size_t count = sunlight.size();
+    Samples fluxes{
+        direct_irradiance(
+            physics,
+            trace({physics.sun_ray(camera, glm::dvec3(0)).direction}).transmittance.front()),
+        weighted_sum(trace(sky.directions).radiance, sky.weights, count),
+        weighted_sum(trace(below.directions).radiance, below.weights, count)};
+    scale_by(sunlight, fluxes);
+    result.irradiance = {fluxes[0], fluxes[1], fluxes[2]};
+  }
+  result.render_ms = ms_since(rendering);
+  return result;
+}
+
+void Engine::warm() {
+  using nlohmann::json;
+  json small{{"image", {{"width", 16}, {"height", 16}}}};
+  for (const char* projection : {"perspective", "fisheye"}) {
+    small["camera"]["projection"] = projection;
+    render(read_scene(small));
+  }
+}
+
+std::vector<DeviceDescription> list_devices(const EngineOptions& options) {
+  std::vector<DeviceDescription> devices;
+  std::string chosen;
+  try {
+    chosen = vulkan::Device(options.device).info().id;
+  } catch (const vulkan::NoDevice&) {
+  }
+  for (const vulkan::DeviceInfo& info : vulkan::list()) {
+    devices.push_back(
+        {info.name, info.driver, info.api_version, info.type, info.id == chosen, info.why});
+  }
+  return devices;
+}
+
+std::string atmosphere_key(const Scene& scene) {
+  nlohmann::json document = canonical(scene);
+  nlohmann::json air{document["planet"], document["atmosphere"], document["spectrum"]};
+  // FNV-1a, 64 bits: a key for caches, not a secret.
+  std::uint64_t hash = 14695981039346656037u;
+  for (unsigned char byte : air.dump()) hash = (hash ^ byte) * 1099511628211u;
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+std::string version() { return CYANOMETER_VERSION; }
+
+}  // namespace cyanometer

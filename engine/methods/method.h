@@ -1,0 +1,61 @@
+// The interface behind which every method stands: told by data what it is and can be told, it traces
+// rays through one uploaded scene. A new method is a folder beside this file and a line in methods.cpp.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/engine.h"
+#include "engine/methods/pacer.h"
+#include "engine/methods/uploaded_scene.h"
+#include "engine/problem.h"
+#include "engine/vulkan/commands.h"
+
+namespace cyanometer {
+
+using MethodOptions = std::map<std::string, double>;
+
+/// What a method leaves of each ray of a tile: inscattered radiance, ground radiance (as seen, both
+/// per unit irradiance, 1/sr) and transmittance to ground or space, in this order, each as
+/// groups of four wavelengths, each of those a plane of `rays` vec4 (shaders/device.glsl).
+struct Tile {
+  static constexpr int quantities = 3;
+  static std::size_t bytes(int groups, int rays) {
+    return std::size_t{16} * quantities * groups * rays;
+  }
+  int first_ray = 0;
+  int rays = 0;
+  const vulkan::Buffer& values;
+};
+
+/// What all methods work with.
+struct Tracer {
+  vulkan::Device& device;
+  vulkan::Commands& commands;
+  Pacer& pacer;
+  const Watch& watch;
+  double device_ms = 0;
+
+  /// Submits what was recorded, keeps its time, and looks whether anybody still waits.
+  /// @returns its time on the device, ms
+  double submit();
+};
+
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual const MethodDescription& description() const = 0;
+  /// Rays that are traced together, given the scene and the pace of the device.
+  virtual int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
+                           const Pacer& pacer) const = 0;
+  /// Leaves all quantities of the tile complete. No dispatch is longer than the pacer allows.
+  virtual void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
+                     const Tile& tile) = 0;
+};
+
+/// The methods, made for a device; in the order of `methods()`.
+std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device);
+
+}  // namespace cyanometer

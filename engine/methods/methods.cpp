@@ -1,0 +1,27 @@
+// The methods there are.
+#include "engine/methods/method.h"
+#include "engine/methods/nishita/nishita.h"
+
+namespace cyanometer {
+
+const std::vector<MethodDescription>& methods() {
+  static const std::vector<MethodDescription> all{
+      nishita_description(),
+  };
+  return all;
+}
+
+std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
+  std::vector<std::unique_ptr<Method>> all;
+  all.push_back(make_nishita(device));
+  return all;
+}
+
+double Tracer::submit() {
+  double ms = commands.submit_and_wait();
+  device_ms += ms;
+  watch.check();
+  return ms;
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,34 @@
+// A scene on the device, in the buffers that every method binds first.
+#pragma once
+
+#include <vector>
+
+#include "engine/physics/pack.h"
+#include "engine/vulkan/buffer.h"
+#include "engine/vulkan/commands.h"
+#include "engine/vulkan/kernel.h"
+
+namespace cyanometer {
+
+class UploadedScene {
+ public:
+  static constexpr int bindings = 8;  ///< 0 to 7 of shaders/device.glsl
+
+  UploadedScene(vulkan::Device& device, const Physics<float>& physics);
+
+  const vulkan::Specialization& constants() const { return constants_; }
+  int groups() const { return groups_; }       ///< of four wavelengths
+  int media() const { return media_; }
+  int disc_points() const { return disc_points_; }
+
+  /// The scene's bindings followed by a kernel's own.
+  std::vector<vulkan::Binding> bind(std::initializer_list<vulkan::Binding> own) const;
+
+ private:
+  std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
+  vulkan::Buffer buffer_;
+  vulkan::Specialization constants_;
+  int groups_, media_, disc_points_;
+};
+
+}  // namespace cyanometer

@@ -1,0 +1,96 @@
+// The shaders' physics as C++: the very files under shaders/, compiled over GLM. With Real = float its
+// arrays are what is uploaded; with Real = double it is the oracle that the device is tested against.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace cyanometer::physics {
+
+using glm::abs;
+using glm::atan;
+using glm::clamp;
+using glm::cos;
+using glm::dot;
+using glm::exp;
+using glm::floor;
+using glm::length;
+using glm::log;
+using glm::log2;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::pow;
+using glm::sin;
+using glm::sqrt;
+
+#define CONSTANT static constexpr
+#define ARRAY(T, name, n) const T(&name)[n]
+#define OUT_ARRAY(T, name, n) T(&name)[n]
+#define INOUT_ARRAY(T, name, n) T(&name)[n]
+#define INOUT(T) T&
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+
+/// The device's view of one scene, and every function of shaders/physics/ and of the methods on it.
+template <class Scalar>
+struct Physics {
+  using Real = Scalar;
+  using Vec2 = glm::vec<2, Real>;
+  using Vec3 = glm::vec<3, Real>;
+  using Vec4 = glm::vec<4, Real>;
+
+#include "shaders/physics/layout.glsl"
+
+  // Constants of the pipeline (shaders/device.glsl). Arrays have room for the contract's most.
+  static constexpr int MEDIA_SIZE = 32;
+  static constexpr int GROUPS_SIZE = 16;
+  static constexpr int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS_SIZE;
+  int EXPONENTIALS = 0, TENTS = 0, QUADRATICS = 0, UNIFORMS = 0, TABLES = 0;
+  int MEDIA = 0, GROUPS = 1, PROJECTION = PROJECTION_PERSPECTIVE;
+  bool NEAR_SUN = false, MANY_SUNS = false;
+
+  // Buffers, in the order of their bindings.
+  SceneData scene{};
+  std::vector<MediumData> media;
+  std::vector<Vec4> spectra;
+  std::vector<Vec4> profile_nodes;
+  std::vector<Real> phase_angles;
+  std::vector<Vec4> phase_values;
+  std::vector<Vec4> sun_points;
+  std::vector<Vec4> directions;
+
+  const MediumData& medium(int c) const { return media[c]; }
+  Vec4 extinction(int c, int group) const { return spectra[(2 + 3 * c) * GROUPS + group]; }
+  Vec4 scattering(int c, int group) const { return spectra[(3 + 3 * c) * GROUPS + group]; }
+  Vec4 depolarisation(int c, int group) const { return spectra[(4 + 3 * c) * GROUPS + group]; }
+  Vec4 ground_albedo(int group) const { return spectra[group]; }
+  Vec4 limb_exponent(int group) const { return spectra[GROUPS + group]; }
+  Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
+  Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
+
+#include "shaders/physics/constants.glsl"
+#include "shaders/physics/sphere.glsl"
+#include "shaders/physics/profile.glsl"
+#include "shaders/physics/phase.glsl"
+#include "shaders/physics/sun.glsl"
+#include "shaders/physics/camera.glsl"
+#include "shaders/physics/transfer.glsl"
+#include "shaders/methods/nishita.glsl"
+};
+
+#pragma GCC diagnostic pop
+#undef CONSTANT
+#undef ARRAY
+#undef OUT_ARRAY
+#undef INOUT_ARRAY
+#undef INOUT
+
+static_assert(sizeof(Physics<float>::SceneData) == 128);
+static_assert(sizeof(Physics<float>::MediumData) == 32);
+
+}  // namespace cyanometer::physics

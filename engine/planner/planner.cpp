@@ -1,0 +1,188 @@
+#include "engine/planner/planner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <numbers>
+#include <sstream>
+
+#include "engine/accuracy/error.h"
+#include "engine/optics/colour.h"
+#include "engine/optics/profile.h"
+
+namespace cyanometer {
+namespace {
+
+/// Samples of the view and the light ray, each step cheaper for its error than the next.
+struct Samples {
+  int view, light;
+};
+constexpr std::array<Samples, 10> sample_ladder{{{8, 4},
+                                                 {16, 4},
+                                                 {16, 8},
+                                                 {32, 8},
+                                                 {64, 8},
+                                                 {64, 16},
+                                                 {128, 16},
+                                                 {128, 32},
+                                                 {256, 32},
+                                                 {256, 64}}};
+constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
+
+/// Evaluations of the optical depth a millisecond on two cores of a software device; the plan may not
+/// depend on what is measured while it runs, or equal requests would have unequal answers.
+constexpr double nominal_evaluations_per_ms = 4e5;
+
+MethodOptions options_of(Samples samples) {
+  return {{"view_samples", samples.view}, {"light_samples", samples.light}};
+}
+
+Samples samples_of(const MethodOptions& options) {
+  return {static_cast<int>(options.at("view_samples")),
+          static_cast<int>(options.at("light_samples"))};
+}
+
+double milliseconds(const PlanInputs& inputs, Samples samples) {
+  double evaluations = inputs.rays * samples.view * (samples.light * inputs.suns + 1) *
+                       std::max(inputs.media, 1);
+  return evaluations / nominal_evaluations_per_ms;
+}
+
+/// By step halving: the error of the midpoint rule is 4/3 of the difference from half the steps, and
+/// twice it where the planet's shadow makes it converge more slowly; the latter is stated.
+double quadrature_bound(const PlanInputs& inputs, Samples samples,
+                        const std::vector<double>& wavelengths) {
+  auto finer = inputs.probe("nishita", options_of({2 * samples.view, 2 * samples.light}),
+                            wavelengths);
+  auto coarse = inputs.probe("nishita", options_of(samples), wavelengths);
+  return 2 * measure_error(coarse, finer).error;
+}
+
+double spectral_error(const PlanInputs& inputs, int count,
+                      const std::vector<std::vector<double>>& reference) {
+  auto values = inputs.probe("nishita", options_of({32, 8}), colour_wavelengths(count));
+  return measure_error(values, reference).error;
+}
+
+struct Wavelengths {
+  std::vector<double> nm;
+  double error = 0;  ///< of colour, from using these and not more
+};
+
+Wavelengths choose_wavelengths(const PlanInputs& inputs, double tolerance) {
+  if (!inputs.scene.spectrum.wavelengths_nm.empty()) {
+    return {inputs.scene.spectrum.wavelengths_nm, 0};
+  }
+  auto reference = inputs.probe("nishita", options_of({32, 8}), colour_wavelengths(64));
+  double error = 0;
+  for (int count : wavelength_ladder) {
+    error = spectral_error(inputs, count, reference);
+    if (error <= tolerance || count == wavelength_ladder.back()) {
+      return {colour_wavelengths(count), error};
+    }
+  }
+  return {};
+}
+
+bool within_time(const PlanInputs& inputs, Samples samples) {
+  const auto& most = inputs.scene.method.max_ms;
+  return !most || milliseconds(inputs, samples) <= *most;
+}
+
+struct Choice {
+  Samples samples;
+  double quadrature_error;
+};
+
+/// The cheapest step of the ladder within the tolerance, or the last one that there is time for.
+Choice choose_samples(const PlanInputs& inputs, const std::vector<double>& wavelengths,
+                      double tolerance) {
+  Choice best{sample_ladder.front(),
+              quadrature_bound(inputs, sample_ladder.front(), wavelengths)};
+  for (std::size_t i = 1; i < sample_ladder.size() && best.quadrature_error > tolerance; ++i) {
+    if (!within_time(inputs, sample_ladder[i])) break;
+    best = {sample_ladder[i], quadrature_bound(inputs, sample_ladder[i], wavelengths)};
+  }
+  return best;
+}
+
+std::string percent(double share) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 100 * share << " %";
+  return text.str();
+}
+
+std::string explain(const PlanInputs& inputs, const Plan& plan, double quadrature,
+                    double spectral, double missing) {
+  std::ostringstream text;
+  Samples samples = samples_of(plan.options);
+  bool automatic = inputs.scene.method.name == "auto";
+  text << (automatic ? "auto chose " : "As asked: ") << plan.method << " with " << samples.view
+       << " view and " << samples.light << " light samples at " << plan.wavelengths_nm.size()
+       << " wavelengths. Its error is at most " << percent(plan.expected_error) << ": "
+       << percent(quadrature) << " from quadrature";
+  if (spectral > 0) text << ", " << percent(spectral) << " from the number of wavelengths";
+  if (missing > 0) {
+    text << ", the rest from multiple scattering, which " << plan.method << " leaves out";
+  }
+  text << ".";
+  if (!plan.met) text << " That misses what was asked; nothing better is there.";
+  return text.str();
+}
+
+}  // namespace
+
+double multiple_scattering_bound(const Scene& scene) {
+  const auto& orders = scene.method.scattering_orders;
+  if (orders && *orders <= 1) return 0;
+  std::vector<double> wavelengths = scene.spectrum.wavelengths_nm;
+  if (wavelengths.empty()) wavelengths = colour_wavelengths(8);
+  Problem problem = make_problem(scene, wavelengths);
+  double squares = 0;
+  for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+    double depth = 0;
+    for (const Medium& medium : problem.media) {
+      depth += medium.scattering_per_km[w] * column_km(medium.profile, problem.thickness_km);
+    }
+    // Each order is at most the share q of the one before that does not escape: half of what an
+    // optically thin layer scatters meets twice its depth on the way, and light from a bright ground
+    // scatters as sunlight does.
+    double q = depth > 0 ? 1 - std::exp(-2 * depth - 2 * problem.ground_albedo[w]) : 0;
+    squares += q * q;
+  }
+  double share = std::sqrt(squares / static_cast<double>(wavelengths.size()));
+  // In twilight the air that the sun still reaches directly is far away and thin.
+  if (share > 0 && scene.sun.elevation_deg < 5) share = std::max(share, 0.7);
+  if (share > 0 && scene.sun.elevation_deg < 0) share = 1;
+  return share;
+}
+
+Plan make_plan(const PlanInputs& inputs) {
+  const MethodChoice& asked = inputs.scene.method;
+  bool automatic = asked.name == "auto";
+  double tolerance = automatic ? asked.max_error.value_or(0.003) : 0.02;
+  Plan plan;
+  plan.method = automatic ? "nishita" : asked.name;
+  Wavelengths wavelengths = choose_wavelengths(inputs, tolerance / 4);
+  plan.wavelengths_nm = wavelengths.nm;
+  Choice choice{};
+  if (automatic) {
+    choice = choose_samples(inputs, plan.wavelengths_nm, tolerance / 2);
+    plan.options = options_of(choice.samples);
+  } else {
+    plan.options = asked.options;
+    choice.samples = samples_of(asked.options);
+    choice.quadrature_error = quadrature_bound(inputs, choice.samples, plan.wavelengths_nm);
+  }
+  double missing = multiple_scattering_bound(inputs.scene);
+  plan.expected_error =
+      std::min(1.0, std::hypot(choice.quadrature_error + wavelengths.error, missing));
+  plan.expected_ms = milliseconds(inputs, choice.samples);
+  bool error_met = !automatic || !asked.max_error || plan.expected_error <= *asked.max_error;
+  plan.met = error_met && (!automatic || within_time(inputs, choice.samples));
+  plan.why = explain(inputs, plan, choice.quadrature_error, wavelengths.error, missing);
+  return plan;
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,33 @@
+// What to do for a scene: the named method as asked, or for `auto` the cheapest choice that meets the
+// error or the time; and the bound that is stated with it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/engine.h"
+#include "engine/methods/method.h"
+
+namespace cyanometer {
+
+/// Traces some rays of the scene and returns what they show, without the sun's disc and stars, in the
+/// channels in which errors are measured: [ray][channel].
+using TraceProbe = std::function<std::vector<std::vector<double>>(
+    const std::string& method, const MethodOptions& options,
+    const std::vector<double>& wavelengths_nm)>;
+
+struct PlanInputs {
+  const Scene& scene;
+  double rays = 0;   ///< of the whole request
+  int suns = 1;      ///< points of the disc that light the air
+  int media = 1;     ///< constituents
+  TraceProbe probe;  ///< the same few rays each time
+};
+
+Plan make_plan(const PlanInputs& inputs);
+
+/// Bound on the share of the light that has met more than one event, for a method that leaves it out.
+double multiple_scattering_bound(const Scene& scene);
+
+}  // namespace cyanometer

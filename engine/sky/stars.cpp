@@ -1,0 +1,92 @@
+#include "engine/sky/stars.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "engine/sky/pixel.h"
+
+namespace cyanometer {
+namespace {
+
+constexpr double sun_magnitude = -26.74;      // [Willmer 2018, V band]
+constexpr double sun_temperature_k = 5772;    // [IAU 2015 resolution B3]
+
+/// Of a uniform double in [0, 1), the same on every platform (distributions of <random> are not).
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Planck's law relative to 550 nm.
+double planck_ratio(double wavelength_nm, double kelvin) {
+  constexpr double c2_nm_k = 1.438776877e7;
+  double x = 550 / wavelength_nm;
+  return std::pow(x, 5) * std::expm1(c2_nm_k / (550 * kelvin)) /
+         std::expm1(c2_nm_k / (wavelength_nm * kelvin));
+}
+
+std::vector<Star> make_catalogue() {
+  // Counts of the naked-eye sky: log10 N(brighter than m) = 0.6 + 0.51 m, a few at 0, some 8,000
+  // at 6.5 [after Allen's Astrophysical Quantities, section 19.10].
+  constexpr int count = 8200;
+  std::mt19937_64 random(1789);
+  std::vector<Star> stars;
+  stars.reserve(count);
+  for (int k = 0; k < count; ++k) {
+    double z = 2 * uniform(random) - 1, angle = 2 * std::numbers::pi * uniform(random);
+    double rim = std::sqrt(1 - z * z);
+    // Bright stars are mostly hot or giant: temperatures spread evenly in the logarithm.
+    double kelvin = 3200 * std::pow(20000.0 / 3200, uniform(random));
+    stars.push_back({{rim * std::cos(angle), rim * std::sin(angle), z},
+                     (std::log10(k + 0.5) - 0.6) / 0.51,
+                     kelvin});
+  }
+  return stars;
+}
+
+/// Rows east, north, up of a place, in the planet's frame.
+glm::dmat3 planet_to_local(const Camera& camera) {
+  double latitude = glm::radians(camera.latitude_deg);
+  double longitude = glm::radians(camera.longitude_deg);
+  glm::dvec3 up(std::cos(latitude) * std::cos(longitude),
+                std::cos(latitude) * std::sin(longitude), std::sin(latitude));
+  glm::dvec3 east(-std::sin(longitude), std::cos(longitude), 0);
+  return glm::transpose(glm::dmat3(east, glm::cross(up, east), up));
+}
+
+}  // namespace
+
+const std::vector<Star>& star_catalogue() {
+  static const std::vector<Star> catalogue = make_catalogue();
+  return catalogue;
+}
+
+double star_irradiance(const Star& star, double wavelength_nm) {
+  return std::pow(10, -0.4 * (star.magnitude - sun_magnitude)) *
+         planck_ratio(wavelength_nm, star.temperature_k) /
+         planck_ratio(wavelength_nm, sun_temperature_k);
+}
+
+StarPixels star_pixels(const Problem& problem, const Physics<double>& camera) {
+  std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
+  std::map<int, std::vector<glm::vec4>> lit;
+  glm::dmat3 turn = planet_to_local(problem.camera);
+  for (const Star& star : star_catalogue()) {
+    std::optional<int> pixel = pixel_of(camera, turn * star.direction);
+    if (!pixel) continue;
+    auto& radiance = lit.try_emplace(*pixel, groups, glm::vec4(0)).first->second;
+    double solid_angle = pixel_solid_angle(camera, *pixel);
+    for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
+      radiance[w / 4][static_cast<int>(w % 4)] +=
+          static_cast<float>(star_irradiance(star, problem.wavelengths_nm[w]) / solid_angle);
+    }
+  }
+  StarPixels result;
+  for (auto& [pixel, radiance] : lit) {
+    result.pixels.push_back(pixel);
+    result.radiance.insert(result.radiance.end(), radiance.begin(), radiance.end());
+  }
+  return result;
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,114 @@
+#include "engine/vulkan/kernel.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "engine/vulkan/program.h"
+
+namespace cyanometer::vulkan {
+namespace {
+
+constexpr std::size_t kPipelinesKept = 64;
+
+void make_module(Kernel::Program& program, std::span<const std::uint32_t> spirv) {
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = spirv.size_bytes();
+  info.pCode = spirv.data();
+  check(vkCreateShaderModule(program.core->device, &info, nullptr, program.module.out()),
+        "vkCreateShaderModule");
+}
+
+void make_set_layout(Kernel::Program& program) {
+  std::vector<VkDescriptorSetLayoutBinding> bindings(program.bindings);
+  for (std::uint32_t i = 0; i < program.bindings; ++i) {
+    bindings[i].binding = i;
+    bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    bindings[i].descriptorCount = 1;
+    bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+  }
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = program.bindings;
+  info.pBindings = bindings.data();
+  check(vkCreateDescriptorSetLayout(program.core->device, &info, nullptr,
+                                    program.set_layout.out()),
+        "vkCreateDescriptorSetLayout");
+}
+
+void make_layout(Kernel::Program& program) {
+  const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                 static_cast<std::uint32_t>(program.push_bytes)};
+  const VkDescriptorSetLayout set = *program.set_layout;
+  VkPipelineLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = program.push_bytes ? 1 : 0;
+  info.pPushConstantRanges = &push;
+  check(vkCreatePipelineLayout(program.core->device, &info, nullptr, program.layout.out()),
+        "vkCreatePipelineLayout");
+}
+
+void require(std::size_t asked, std::size_t allowed, const char* what) {
+  if (asked > allowed)
+    throw std::invalid_argument("a kernel with " + std::to_string(asked) + " " + what +
+                                "; the device allows " + std::to_string(allowed));
+}
+
+}  // namespace
+
+Kernel::Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32_t bindings,
+               std::size_t push_bytes)
+    : program_(std::make_shared<Program>(device.core())) {
+  require(bindings, device.limits().max_bindings, "storage buffers");
+  require(push_bytes, device.limits().max_push_bytes, "bytes of push constants");
+  program_->bindings = bindings;
+  program_->push_bytes = push_bytes;
+  make_module(*program_, spirv);
+  make_set_layout(*program_);
+  make_layout(*program_);
+}
+
+std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::pipeline(
+    const Specialization& specialization) {
+  auto found = pipelines_.find(specialization);
+  if (found == pipelines_.end()) {
+    if (pipelines_.size() == kPipelinesKept) forget_the_least_used();
+    found = pipelines_.emplace(specialization, Kept{make(specialization)}).first;
+  }
+  found->second.last_use = ++uses_;
+  return found->second.pipeline;
+}
+
+void Kernel::Program::forget_the_least_used() {
+  pipelines_.erase(std::min_element(
+      pipelines_.begin(), pipelines_.end(),
+      [](const auto& a, const auto& b) { return a.second.last_use < b.second.last_use; }));
+}
+
+std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::make(
+    const Specialization& specialization) {
+  std::vector<VkSpecializationMapEntry> entries;
+  for (std::uint32_t id = 0; id < specialization.size(); ++id)
+    entries.push_back({id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});
+  const VkSpecializationInfo constants{
+      static_cast<std::uint32_t>(entries.size()), entries.data(),
+      specialization.size() * sizeof(std::uint32_t), specialization.data()};
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = *module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &constants;
+  info.layout = *layout;
+  auto pipeline = std::make_shared<Pipeline>(core);
+  check(vkCreateComputePipelines(core->device, VK_NULL_HANDLE, 1, &info, nullptr,
+                                 pipeline->out()),
+        "vkCreateComputePipelines");
+  return pipeline;
+}
+
+}  // namespace cyanometer::vulkan

@@ -1,0 +1,39 @@
+// A kernel's inner part: what the commands that dispatch it keep alive.
+#pragma once
+
+#include <map>
+
+#include "engine/vulkan/core.h"
+#include "engine/vulkan/kernel.h"
+
+namespace cyanometer::vulkan {
+
+struct Kernel::Program {
+  using Pipeline = Owned<VkPipeline, &vkDestroyPipeline>;
+
+  explicit Program(const std::shared_ptr<Device::Core>& core_)
+      : core(core_), module(core_), set_layout(core_), layout(core_) {}
+
+  /// The pipeline of a specialization, made where there is none yet.
+  std::shared_ptr<Pipeline> pipeline(const Specialization& specialization);
+
+  std::shared_ptr<Device::Core> core;
+  std::uint32_t bindings = 0;
+  std::size_t push_bytes = 0;
+  Owned<VkShaderModule, &vkDestroyShaderModule> module;
+  Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> set_layout;
+  Owned<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
+
+ private:
+  struct Kept {
+    std::shared_ptr<Pipeline> pipeline;
+    std::uint64_t last_use = 0;
+  };
+  std::shared_ptr<Pipeline> make(const Specialization& specialization);
+  void forget_the_least_used();
+
+  std::map<Specialization, Kept> pipelines_;
+  std::uint64_t uses_ = 0;
+};
+
+}  // namespace cyanometer::vulkan

@@ -1,0 +1,76 @@
+// What the physics files stand on in a shader: types, constants of the pipeline, buffers.
+// engine/physics/physics.h is the same for C++.
+#define Real float
+#define Vec2 vec2
+#define Vec3 vec3
+#define Vec4 vec4
+#define CONSTANT const
+#define ARRAY(T, name, n) in T name[n]
+#define OUT_ARRAY(T, name, n) out T name[n]
+#define INOUT_ARRAY(T, name, n) inout T name[n]
+#define INOUT(T) inout T
+
+layout(local_size_x = 64) in;
+
+// Constituents by type of profile, in this order; see engine/physics/pack.h.
+layout(constant_id = 0) const int EXPONENTIALS = 0;
+layout(constant_id = 1) const int TENTS = 0;
+layout(constant_id = 2) const int QUADRATICS = 0;
+layout(constant_id = 3) const int UNIFORMS = 0;
+layout(constant_id = 4) const int TABLES = 0;
+layout(constant_id = 5) const int MEDIA_SIZE = 1;  // of arrays: their sum, at least 1
+layout(constant_id = 6) const int GROUPS = 1;      // wavelengths come in groups of four
+layout(constant_id = 7) const int PROJECTION = 0;
+layout(constant_id = 8) const bool NEAR_SUN = false;
+layout(constant_id = 9) const bool MANY_SUNS = false;  // more than one point of the disc
+const int MEDIA = EXPONENTIALS + TENTS + QUADRATICS + UNIFORMS + TABLES;
+const int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS;
+#define GROUPS_SIZE GROUPS
+
+#include "physics/layout.glsl"
+
+layout(std430, binding = 0) restrict readonly buffer SceneBuffer { SceneData scene; };
+layout(std430, binding = 1) restrict readonly buffer MediaBuffer { MediumData media[]; };
+// By wavelength, in groups of four: ground albedo, limb-darkening exponent, then for each constituent
+// extinction, scattering (1/km where its profile is 1) and depolarisation gamma.
+layout(std430, binding = 2) restrict readonly buffer SpectraBuffer { Vec4 spectra[]; };
+layout(std430, binding = 3) restrict readonly buffer ProfileBuffer { Vec4 profile_nodes[]; };
+layout(std430, binding = 4) restrict readonly buffer AngleBuffer { Real phase_angles[]; };
+layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_values[]; };
+// Points of the sun's disc: offset in the plane of the disc in units of the sine of its radius, then
+// for each group of wavelengths the point's weight.
+layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
+layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
+
+// Coefficients are read once into registers: a gather for each sample costs more than the exponential.
+MediumData medium_[MEDIA_SIZE];
+Vec4 extinction_[MEDIA_GROUPS_SIZE];
+Vec4 scattering_[MEDIA_GROUPS_SIZE];
+
+void load_scene() {
+  for (int c = 0; c < MEDIA; ++c) {
+    medium_[c] = media[c];
+    for (int group = 0; group < GROUPS; ++group) {
+      extinction_[c * GROUPS + group] = spectra[(2 + 3 * c) * GROUPS + group];
+      scattering_[c * GROUPS + group] = spectra[(3 + 3 * c) * GROUPS + group];
+    }
+  }
+}
+
+#define medium(c) medium_[c]
+#define extinction(c, group) extinction_[(c) * GROUPS + (group)]
+#define scattering(c, group) scattering_[(c) * GROUPS + (group)]
+#define depolarisation(c, group) spectra[(4 + 3 * (c)) * GROUPS + (group)]
+#define ground_albedo(group) spectra[group]
+#define limb_exponent(group) spectra[GROUPS + (group)]
+#define sun_offset(k) sun_points[(k) * (GROUPS + 1)].xyz
+#define sun_weight(k, group) sun_points[(k) * (GROUPS + 1) + 1 + (group)]
+
+#include "physics/physics.glsl"
+
+// What a method leaves of a ray for every group of wavelengths: quantity * GROUPS + group picks a
+// plane of `rays_in_tile` values. Radiance is per unit irradiance, 1/sr.
+#define INSCATTER 0
+#define GROUND 1
+#define TRANSMITTANCE 2  // to the ground or to space
+#define TILE_QUANTITIES 3

@@ -1,0 +1,53 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "device.glsl"
+
+// A tile's spectral quantities become up to four planes of the frame: the sun's disc is added behind
+// the air, and one row of the output matrix is applied for each plane.
+layout(std430, binding = 8) restrict readonly buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = 9) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
+layout(std430, binding = 10) restrict writeonly buffer Plane0 { Real plane0[]; };
+layout(std430, binding = 11) restrict writeonly buffer Plane1 { Real plane1[]; };
+layout(std430, binding = 12) restrict writeonly buffer Plane2 { Real plane2[]; };
+layout(std430, binding = 13) restrict writeonly buffer Plane3 { Real plane3[]; };
+
+layout(push_constant) uniform Push {
+  Vec4 inscatter;      // weight of each quantity in the four planes
+  Vec4 ground;
+  Vec4 sun;
+  Vec4 transmittance;
+  int first_ray;
+  int rays_in_tile;
+  int first_row;       // of the matrix
+  int mark_outside;    // plane 3 is -1 where the ray meets neither air nor ground
+} push;
+
+void main() {
+  int i = int(gl_GlobalInvocationID.x);
+  int n = push.rays_in_tile;
+  if (i >= n) return;
+  PixelRay pixel = pixel_ray(push.first_ray + i);
+  Path path = path_from_camera(pixel.direction);
+  bool sky = pixel.inside && !path.meets_ground;
+  Vec3 camera = Vec3(0.0, 0.0, scene.planet_radius_km + scene.camera_altitude_km);
+  Vec4 value = Vec4(0.0);
+  for (int g = 0; g < GROUPS; ++g) {
+    Vec4 inscatter = tile[(INSCATTER * GROUPS + g) * n + i];
+    Vec4 ground = tile[(GROUND * GROUPS + g) * n + i];
+    Vec4 transmittance = tile[(TRANSMITTANCE * GROUPS + g) * n + i];
+    Vec4 sun = sky ? transmittance * disc_radiance(pixel.direction, camera, limb_exponent(g),
+                                                   pixel_angle())
+                   : Vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+      Vec4 light = push.inscatter[k] * inscatter + push.ground[k] * ground +
+                   push.sun[k] * sun + push.transmittance[k] * transmittance;
+      value[k] += dot(matrix[(push.first_row + k) * GROUPS + g], light);
+    }
+  }
+  if (push.mark_outside != 0 && !(pixel.inside && meets_planet(path))) value.w = -1.0;
+  int at = push.first_ray + i;
+  plane0[at] = value.x;
+  plane1[at] = value.y;
+  plane2[at] = value.z;
+  plane3[at] = value.w;
+}
