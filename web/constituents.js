@@ -6,24 +6,8 @@ import { equal, get } from './paths.js';
 
 const ROOT = 'atmosphere.constituents';
 
-// The ways to say how much of it there is; the document takes one of them at a time.
-const DESCRIPTIONS = {
-  molecules: {
-    'The gas itself': ['refractive_index', 'pressure_pa', 'temperature_k', 'king_factor'],
-    'Scattering coefficient': ['scattering_per_km'],
-  },
-  particles: {
-    'Optical depth': ['optical_depth', 'single_scattering_albedo'],
-    Visibility: ['visibility_km', 'single_scattering_albedo'],
-    Coefficients: ['scattering_per_km', 'absorption_per_km'],
-  },
-  absorber: {
-    'Ozone column': ['gas', 'dobson_units'],
-    'Absorption coefficient': ['absorption_per_km'],
-  },
-};
+// Members that may stay away from the way of saying how much there is that they belong to.
 const OPTIONAL = new Set(['king_factor', 'single_scattering_albedo']);
-const FIXED = new Set(['type', 'gas']);
 
 const TEMPLATES = {
   gas: {
@@ -73,11 +57,12 @@ export class Constituents {
   // [name, value, on]: those of the scene, and those that were switched off.
   #cards() {
     const present = this.state.value(ROOT) ?? {};
-    const off = { ...(get(this.state.base(), ROOT) ?? {}) };
+    const off = { ...get(this.state.base(), ROOT) };
     for (const [name, { value }] of this.#kept) off[name] = value;
     const absent = Object.keys(get(this.state.patch, ROOT) ?? {})
       .filter((name) => get(this.state.patch, `${ROOT}.${name}`) === null && off[name]);
-    return [...Object.entries(present).map(([name, value]) => [name, value, true]),
+    return [...Object.entries(present).filter(([, value]) => value)
+              .map(([name, value]) => [name, value, true]),
             ...absent.map((name) => [name, off[name], false])]
       .sort(([a], [b]) => (a < b ? -1 : 1));
   }
@@ -88,7 +73,7 @@ export class Constituents {
     const box = switchBox(`${words(name)} on`, (checked) => this.#switch(name, value, checked));
     box.checked = on;
     box.addEventListener('click', (event) => event.stopPropagation());
-    const added = get(this.state.base(), path) === undefined;
+    const added = !get(this.state.base(), path);
     const card = h('details', { className: `card ${value.type}${on ? '' : ' off'}`, 'data-name': name,
                                 open: on && open.has(name) },
       h('summary', {}, h('span', { className: 'dot' }), h('span', { className: 'name' }, words(name)),
@@ -100,29 +85,33 @@ export class Constituents {
   }
 
   #fields(path, value, type) {
-    const ways = DESCRIPTIONS[value.type] ?? {};
-    const current = Object.entries(ways)
-      .find(([, members]) => members.some((m) => !OPTIONAL.has(m) && m in value));
-    const alternatives = new Set(Object.values(ways).flat());
-    const shown = Object.keys(type.properties)
-      .filter((member) => !FIXED.has(member))
-      .filter((member) => (alternatives.has(member) ? current?.[1].includes(member) && applies(member, value)
-                                                    : true));
+    const members = Object.fromEntries(this.schema.members(type));
+    const ways = waysToDescribe(this.schema.alternatives(type), members);
+    const current = ways.find(({ names }) => names.some((m) => !OPTIONAL.has(m) && m in value));
+    const alternatives = new Set(ways.flatMap(({ names }) => names));
+    const shown = Object.keys(members)
+      .filter((name) => !('const' in members[name]))
+      .filter((name) => !alternatives.has(name) ||
+                        (current?.names.includes(name) && applies(name, value)));
     return [
-      current ? this.#wayChoice(path, Object.keys(ways), current[0], ways, type) : null,
-      ...shown.map((member) => this.controls.make(`${path}.${member}`, type.properties[member])),
+      ways.length > 1 && current ? this.#wayChoice(path, ways, current, members) : null,
+      ...shown.map((name) => this.controls.make(`${path}.${name}`, members[name])),
     ];
   }
 
-  #wayChoice(path, names, current, ways, type) {
-    const select = h('select', { 'aria-label': 'Given by', onchange: () => {
-      const chosen = ways[names[select.selectedIndex]];
-      const edits = Object.fromEntries(Object.values(ways).flat().map((m) => [`${path}.${m}`, undefined]));
-      for (const member of chosen.filter((m) => !OPTIONAL.has(m))) {
-        edits[`${path}.${member}`] = this.schema.initial(type.properties[member]);
+  // The document takes one of the ways at a time: choosing one lets go of the others.
+  #wayChoice(path, ways, current, members) {
+    const choose = ({ names }) => {
+      const edits = {};
+      for (const name of ways.flatMap((way) => way.names)) edits[`${path}.${name}`] = undefined;
+      for (const name of names.filter((one) => !OPTIONAL.has(one))) {
+        edits[`${path}.${name}`] = this.schema.initial(members[name]);
       }
       this.state.edit(edits);
-    } }, names.map((name) => h('option', { selected: name === current }, name)));
+    };
+    const select = h('select', { 'aria-label': 'Given by',
+                                 onchange: () => choose(ways[select.selectedIndex]) },
+      ways.map((way) => h('option', { selected: way === current }, way.title)));
     return h('div', { className: 'control row' }, h('span', { className: 'title' }, 'Given by'), select);
   }
 
@@ -160,6 +149,16 @@ export class Constituents {
       Object.keys(TEMPLATES).map((template) => h('button', {
         type: 'button', className: 'chip', onclick: () => add(template) }, words(template))));
   }
+}
+
+/** [{title, names}]: the groups of alternative members, named after what is chosen first. */
+function waysToDescribe(alternatives, members) {
+  const ways = alternatives.flat().map((names) => {
+    const known = names.filter((name) => name in members);
+    const leading = known.find((name) => !('const' in members[name])) ?? known[0];
+    return { title: members[leading]?.title ?? words(leading), names: known };
+  });
+  return ways.filter((way, i) => ways.findIndex((other) => other.title === way.title) === i);
 }
 
 // With Mie spheres and an optical depth at one wavelength, the albedo follows from Mie theory.

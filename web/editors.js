@@ -11,11 +11,11 @@ const MOST_SLIDERS = 8;  // longer lists are edited as text
 export function editor(schema, node, binding) {
   const forms = schema.forms(node);
   if (forms.length > 1 && forms.every((form) => form.enum || 'const' in form)) {
-    return choice(forms.flatMap((form) => form.enum ?? [form.const]), binding);
+    return choice(forms.flatMap((form) => form.enum ?? [form.const]), [], binding);
   }
   if (forms.length > 1) return union(schema, forms, binding);
   const form = forms[0];
-  if (form.enum) return choice(form.enum, binding);
+  if (form.enum) return choice(form.enum, form['x-titles'] ?? [], binding);
   if ('const' in form) return { element: h('span', { className: 'quiet' }), refresh() {} };
   if (form.type === 'boolean') return toggle(binding);
   if (form.type === 'number' || form.type === 'integer') return number(form, binding);
@@ -36,7 +36,8 @@ export function number(node, binding) {
   if (!scale.logarithmic) slider.step = 1;
   const typed = h('input', {
     type: 'text', inputMode: 'decimal', className: 'typed', autocomplete: 'off', spellcheck: false,
-    'aria-label': unit ? `${binding.label}, ${node['x-unit']}` : binding.label, placeholder: 'auto',
+    'aria-label': unit ? `${binding.label}, ${node['x-unit']}` : binding.label,
+    placeholder: node['x-default'] ? 'auto' : 'none',
     onchange: () => {
       const value = parse(typed.value);
       if (value === undefined) binding.complain('This needs a number.');
@@ -69,10 +70,10 @@ function stepByKey(event, slider, typed) {
   typed.select();
 }
 
-function choice(values, binding) {
+function choice(values, titles, binding) {
   const select = h('select', {
     'aria-label': binding.label, onchange: () => binding.set(values[select.selectedIndex]),
-  }, values.map((value) => h('option', {}, words(String(value)))));
+  }, values.map((value, i) => h('option', {}, titles[i] ?? words(String(value)))));
   return {
     element: select,
     refresh() {
@@ -98,13 +99,10 @@ export function switchBox(label, onChange) {
 function array(schema, node, binding) {
   const items = schema.follow(node.items ?? {});
   if (items.enum) return checklist(items.enum, binding);
-  const bounded = node.maxItems !== undefined && node.minItems === node.maxItems;
-  const length = binding.get()?.length ?? node.minItems ?? 0;
-  const slidable = items.type === 'number' || items.type === 'integer' || items.oneOf;
-  if (slidable && (bounded || length > 0) && length <= MOST_SLIDERS && items['x-slider']) {
-    return sliders(schema, items, length, binding);
-  }
-  return text(binding);
+  if (node.prefixItems) return sliders(schema, node.prefixItems, binding);
+  const length = binding.get()?.length ?? 0;
+  if (!node['x-slider'] || length < 1 || length > MOST_SLIDERS) return text(binding);
+  return sliders(schema, Array(length).fill({ 'x-slider': node['x-slider'], ...items }), binding);
 }
 
 function checklist(values, binding) {
@@ -123,8 +121,9 @@ function checklist(values, binding) {
 
 const PRIMARIES = ['red', 'green', 'blue'];
 
-function sliders(schema, items, length, binding) {
-  const all = Array.from({ length }, (_, i) => editor(schema, items, {
+function sliders(schema, items, binding) {
+  const { length } = items;
+  const all = items.map((item, i) => editor(schema, item, {
     label: `${binding.label} ${length === 3 ? PRIMARIES[i] : i + 1}`,
     complain: binding.complain,
     get: () => binding.get()?.[i],
@@ -139,8 +138,7 @@ function sliders(schema, items, length, binding) {
 
 /** The members of an object, each with its own small title. */
 function members(schema, node, binding) {
-  const rows = Object.entries(node.properties ?? {})
-    .map(([name, below]) => [name, schema.follow(below)])
+  const rows = schema.members(node)
     .filter(([, below]) => !('const' in below))
     .map(([name, below]) => {
       const label = below.title ?? words(name);
@@ -175,7 +173,7 @@ function union(schema, forms, binding) {
   const place = h('div', { className: 'form' });
   const select = h('select', {
     className: 'form-choice', 'aria-label': `${binding.label}: form`,
-    onchange: () => binding.set(schema.initial(forms[select.selectedIndex])),
+    onchange: () => binding.set(schema.initial(forms[select.selectedIndex], binding.get())),
   }, forms.map((form) => h('option', {}, formTitle(form))));
   return {
     element: h('div', { className: 'union' }, select, place),

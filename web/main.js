@@ -128,7 +128,11 @@ async function start() {
   const ask = (what) => untilAnswered(() => list(what), (error) => say(inWords(error), 'waiting'));
   const [root, { presets }, { methods }] =
     await Promise.all([ask('schema'), ask('presets'), ask('methods')]);
-  const schema = new Schema(root);
+  const schema = new Schema(root, () => {
+    const chosen = state.value('spectrum.wavelengths_nm');
+    return Array.isArray(chosen) ? chosen.length : undefined;
+  });
+  state.rivals = (path) => schema.rivals(path);
   controls = new Controls(state, schema);
   const constituents = new Constituents(state, schema, controls);
   methodOptions = new MethodOptions(methods, state, controls);

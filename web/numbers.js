@@ -15,7 +15,7 @@ export function parse(text) {
   return plain !== '' && Number.isFinite(value) ? value : undefined;
 }
 
-const UNITS = { deg: '°', um: 'µm', k: 'K', pa: 'Pa', '1/km': 'km⁻¹', 'km^-1': 'km⁻¹' };
+const UNITS = { deg: '°', um: 'µm', '1/km': 'km⁻¹', 'W m^-2 nm^-1': 'W m⁻² nm⁻¹' };
 export const unitText = (unit) => UNITS[unit] ?? unit ?? '';
 
 const POSITIONS = 1000;
@@ -31,7 +31,7 @@ export class Scale {
     // A logarithmic scale that starts at 0 shows eight decades, and 0 itself at its very left.
     this.zero = this.logarithmic && this.low <= 0;
     if (this.zero) this.low = this.high * 1e-8;
-    this.step = slider.step || (this.high - this.low) / POSITIONS;
+    this.step = slider.step || (this.integer ? 1 : (this.high - this.low) / POSITIONS);
     this.positions = this.logarithmic ? POSITIONS
                                       : Math.max(1, Math.round((this.high - this.low) / this.step));
   }

@@ -51,15 +51,14 @@ const GROUPS = [
 const OPEN_AT_FIRST = new Set(['sun', 'atmosphere']);
 const FOLD_OF_GROUP = { air: 'atmosphere', haze: 'atmosphere', ozone: 'atmosphere' };
 
-// The preset has its own tab, the picture's size and file belong to the download, and the method's
-// options are listed with the method.
-const ELSEWHERE = /^(preset|image\.(width|height|format|channels|layers)|atmosphere\.constituents)$/;
+// The picture's size and file belong to the download, the method's options to the method.
+const ELSEWHERE = /^(image\.(width|height|format|channels|layers)|atmosphere\.constituents)$/;
 
 /** Builds the folds. `extra` maps a fold's name to elements that follow its controls. */
 export function buildFolds(schema, controls, methodOptions, extra) {
   const members = new Map(GROUPS.map(([name]) => [name, []]));
-  for (const [path, node] of schema.grouped()) {
-    if (ELSEWHERE.test(path) || methodOptions.has(path)) continue;
+  for (const [path, node] of schema.controllable()) {
+    if (ELSEWHERE.test(path) || methodOptions.has(path) || schema.isFixed(node)) continue;
     const group = FOLD_OF_GROUP[node['x-group']] ?? node['x-group'];
     members.get(members.has(group) ? group : 'picture').push(controls.make(path, node));
   }

@@ -1,10 +1,17 @@
 // Reading the scene's JSON Schema: references, forms of a union, groups, first values.
+//
+// Beside the standard keywords it says `x-group`, `x-unit`, `x-slider` (a comfortable range), `x-titles`
+// (of an enum) and `x-alternatives` (groups of members of which one may be given).
 
 import { isObject } from './paths.js';
 
+const USUAL_PRIMARIES_NM = [680, 550, 440];
+
 export class Schema {
-  constructor(root) {
+  /** `count()` is how many values a list needs that has one for each wavelength. */
+  constructor(root, count) {
     this.root = root;
+    this.count = () => count() ?? USUAL_PRIMARIES_NM.length;
   }
 
   /** The node with its references followed; its own keywords win over those it refers to. */
@@ -19,8 +26,7 @@ export class Schema {
   at(path) {
     return path.split('.').reduce((node, name) => {
       const below = this.follow(node);
-      return below?.properties?.[name] ??
-        (isObject(below?.additionalProperties) ? below.additionalProperties : undefined);
+      return below?.properties?.[name] ?? Object.values(below?.patternProperties ?? {})[0];
     }, this.root);
   }
 
@@ -31,7 +37,29 @@ export class Schema {
     if (!union) return [followed];
     const shared = shareable(followed);
     return union.flatMap((form) => this.forms({ ...shared, ...this.follow(form) }))
+      .flatMap((form) => form.enum?.map((value) => ({ const: value })) ?? [form])
       .filter((form) => form.type !== 'null' && form.const !== null);
+  }
+
+  /** The members of an object form; what a slider of the whole is about, its `value` is too. */
+  members(form) {
+    return Object.entries(form.properties ?? {}).map(([name, below]) => {
+      const member = this.follow(below);
+      const inherits = name === 'value' || name === 'power_law';
+      return [name, inherits && form['x-slider'] ? { 'x-slider': form['x-slider'], ...member } : member];
+    });
+  }
+
+  /** The groups of members of which an object form takes one at a time. */
+  alternatives(form) {
+    return form['x-alternatives'] ?? [];
+  }
+
+  /** True where the node leaves nothing to choose. */
+  isFixed(node) {
+    const forms = this.forms(node);
+    return forms.length === 1 && ('const' in forms[0] || (forms[0].type === 'object' &&
+      this.members(forms[0]).every(([, member]) => 'const' in member)));
   }
 
   /** Number of the first form that `value` has; 0 where it has none. */
@@ -56,35 +84,58 @@ export class Schema {
       });
   }
 
-  /** A value of the node's shape to start from. */
-  initial(node) {
+  /** A value of the node's shape to start from, as near as can be to the value `like`. */
+  initial(node, like) {
     const form = this.forms(node)[0];
-    if (form.default !== undefined && this.fits(form, form.default)) return form.default;
+    const size = magnitude(like);
+    if (size === undefined && form.default !== undefined && this.fits(form, form.default)) {
+      return form.default;
+    }
     if ('const' in form) return form.const;
     if (form.enum) return form.enum[0];
     if (form.type === 'boolean') return false;
-    if (form.type === 'number' || form.type === 'integer') return initialNumber(form);
-    if (form.type === 'array') return this.#initialArray(form);
-    if (form.format === 'date-time') return new Date().toISOString().replace(/\.\d+/, '');
-    if (form.type === 'string') return '';
-    const names = form.required ?? Object.keys(form.properties ?? {});
-    return Object.fromEntries(names.map((name) => [name, this.initial(form.properties[name])]));
+    if (form.type === 'number' || form.type === 'integer') return size ?? initialNumber(form);
+    if (form.type === 'array') return this.#initialArray(form, size);
+    if (form.type === 'string') return new Date().toISOString().replace(/\.\d+/, '');
+    const members = this.members(form)
+      .filter(([name]) => !form.required || form.required.includes(name));
+    return Object.fromEntries(members.map(([name, member]) =>
+      [name, INITIAL_OF[name] ?? this.initial(member, name in CARRIES ? size : undefined)]));
   }
 
-  #initialArray(form) {
-    const items = form.items ?? { type: 'number' };
-    return Array.from({ length: Math.max(1, form.minItems ?? 1) }, () => this.initial(items));
+  #initialArray(form, size) {
+    if (form['x-order']) return USUAL_PRIMARIES_NM;
+    const items = form.prefixItems ??
+      Array(form.minItems === form.maxItems ? form.minItems : this.count()).fill(form.items);
+    return items.map((item) => size ?? this.initial(item));
   }
 
-  /** [path, node] of every member that stands in a group (`x-group`), outermost first. */
-  grouped(node = this.root, prefix = '') {
-    return Object.entries(this.follow(node).properties ?? {}).flatMap(([name, below]) => {
-      const followed = this.follow(below);
-      const path = prefix + name;
-      if (followed['x-group']) return [[path, followed]];
-      return this.grouped(followed, `${path}.`);
-    });
+  /** Paths of the members that may not be given beside `path`, the constituents' apart. */
+  rivals(path) {
+    const place = path.split('.').slice(0, -1).join('.');
+    const name = path.slice(place.length + 1);
+    const form = place ? this.follow(this.at(place)) : undefined;
+    return this.alternatives(form ?? {}).filter((groups) => groups.flat().includes(name))
+      .flatMap((groups) => groups.filter((group) => !group.includes(name)).flat())
+      .map((rival) => `${place}.${rival}`);
   }
+
+  /** [path, node] of every member of the document's sections, each of which says its `x-group`. */
+  controllable() {
+    return Object.entries(this.root.properties).flatMap(([section, node]) =>
+      this.members(this.follow(node)).map(([name, member]) => [`${section}.${name}`, member]));
+  }
+}
+
+// Where a spectrum's size goes when it takes another form, and what its other parts start from.
+const CARRIES = { value: true, power_law: true };
+const INITIAL_OF = { at_nm: 550, exponent: 0, wavelengths_nm: [400, 550, 700], values: [1, 1, 1] };
+
+/** One number for how large a spectrum is, undefined where the value is something else. */
+function magnitude(value) {
+  if (typeof value === 'number') return value;
+  if (Array.isArray(value)) return typeof value[0] === 'number' ? value[0] : undefined;
+  return value?.power_law?.value;
 }
 
 // What a union says for all its forms.

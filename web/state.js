@@ -5,9 +5,6 @@
 
 import { equal, get, isObject, merge, set, unset } from './paths.js';
 
-// Members of which the document takes one side at a time.
-const ALTERNATIVES = [['sun.place'], ['sun.elevation_deg', 'sun.azimuth_deg']];
-
 const SETTLE_MS = 350;
 const LONGEST_HISTORY = 200;
 
@@ -23,6 +20,7 @@ export class State extends EventTarget {
     this.preset = preset;
     this.patch = patch;
     this.resolved = {};
+    this.rivals = () => [];  // paths that a document may not hold beside a path
     this.#settled = this.snapshot();
   }
 
@@ -69,11 +67,7 @@ export class State extends EventTarget {
   }
 
   #assign(path, value) {
-    if (ALTERNATIVES.some((side) => side.includes(path))) {
-      ALTERNATIVES.filter((side) => !side.includes(path)).flat().forEach((other) => {
-        this.patch = unset(this.patch, other);
-      });
-    }
+    for (const other of this.rivals(path)) this.patch = unset(this.patch, other);
     // A spectrum of another form, or an object of another type, must not merge with the old patch.
     this.patch = set(this.patch, path, value);
     if (isObject(value)) this.resolved = unset(this.resolved, path);

@@ -147,6 +147,11 @@ export class View extends EventTarget {
                                   Math.max(FEWEST_PIXELS, this.#movingPixels * factor));
   }
 
+  // Rounding of a small frame's size must not show as bars: only panoramas keep their own shape.
+  #fit() {
+    this.canvas.classList.toggle('filling', !(this.#projection() in FIXED_SHAPES));
+  }
+
   async #fly({ width, height, moving }) {
     const scene = this.scene();
     const flight = { version: this.#version, moving, startedAt: performance.now(),
@@ -171,9 +176,12 @@ export class View extends EventTarget {
     const now = performance.now();
     this.#flight = undefined;
     this.#attempts = 0;
-    this.#shown = { version: flight.version, pixels: bitmap.width * bitmap.height };
+    this.#shown = { version: flight.version, pixels: facts.width * facts.height };
     if (flight.moving) this.#learn(now - flight.startedAt);
     this.#frameTimes.push(now);
+    this.#fit();
+    this.canvas.width = bitmap.width;
+    this.canvas.height = bitmap.height;
     this.context.transferFromImageBitmap(bitmap);
     this.dispatchEvent(new CustomEvent('frame', {
       detail: { ...facts, totalMs: now - flight.startedAt, moving: flight.moving } }));
