@@ -30,8 +30,8 @@ function lines(facts, framesPerSecond) {
     speed,
     ['Render', `${format(Number((facts.renderMs ?? 0).toPrecision(3)))} ms`, 'Time on the device'],
     ['Size', `${facts.width} × ${facts.height}`, 'Pixels of this frame'],
-    ['Method', words(facts.method ?? '?'), facts.options ?? ''],
-    ['Options', facts.options ?? '', facts.options ?? ''],
+    ['Method', words(facts.method ?? '?'), 'How the light of this frame was computed'],
+    ['Options', (facts.options ?? '').replaceAll('_', ' ').replaceAll('=', ' '), 'Of the method'],
     ['Error', errorText(facts), 'A bound that holds in 95 % of frames'],
     ['Exposure', `${signed(facts.exposure)} EV`, 'Stops; at 0 a white card in the sun is 1'],
   ].filter(([, value]) => value !== '');

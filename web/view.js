@@ -183,6 +183,7 @@ export class View extends EventTarget {
     this.canvas.width = bitmap.width;
     this.canvas.height = bitmap.height;
     this.context.transferFromImageBitmap(bitmap);
+    this.canvas.dataset.state = this.settled ? 'sharp' : 'rough';
     this.dispatchEvent(new CustomEvent('frame', {
       detail: { ...facts, totalMs: now - flight.startedAt, moving: flight.moving } }));
   }
