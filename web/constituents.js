@@ -50,7 +50,8 @@ export class Constituents {
     const shape = cards.map(([name, value, on]) => [name, on, value.type, Object.keys(value)]);
     if (equal(shape, this.#drawn)) return;
     this.#drawn = shape;
-    const open = new Set([...this.list.querySelectorAll('details[open]')].map((d) => d.dataset.name));
+    const open = new Set([...this.list.querySelectorAll('details[open]')]
+      .map((details) => details.parentElement.dataset.name));
     this.list.replaceChildren(...cards.map((card) => this.#card(...card, open)));
   }
 
@@ -72,16 +73,15 @@ export class Constituents {
     const type = this.#typeNode(value.type);
     const box = switchBox(`${words(name)} on`, (checked) => this.#switch(name, value, checked));
     box.checked = on;
-    box.addEventListener('click', (event) => event.stopPropagation());
     const added = !get(this.state.base(), path);
-    const card = h('details', { className: `card ${value.type}${on ? '' : ' off'}`, 'data-name': name,
-                                open: on && open.has(name) },
+    const details = h('details', { open: on && open.has(name) },
       h('summary', {}, h('span', { className: 'dot' }), h('span', { className: 'name' }, words(name)),
-        h('span', { className: 'quiet' }, type?.title ?? words(value.type)), box),
+        h('span', { className: 'quiet', title: type?.title ?? '' }, words(value.type))),
       h('div', { className: 'body' }, on && type ? this.#fields(path, value, type) : null,
         added ? h('button', { type: 'button', className: 'plain', onclick: () => this.#remove(name) },
                   icon('remove'), `Remove ${words(name)}`) : null));
-    return card;
+    return h('div', { className: `card ${value.type}${on ? '' : ' off'}`, 'data-name': name },
+             details, box);
   }
 
   #fields(path, value, type) {

@@ -149,13 +149,13 @@ function members(schema, node, binding) {
         set: (value) => binding.set({ ...binding.get(), [name]: value }),
       });
       const bare = below.type === 'object';
-      return { ...one, row: h('div', { className: 'member', title: below.description ?? '' },
+      return { ...one, node: below, row: h('div', { className: 'member', title: below.description ?? '' },
                               bare ? null : h('span', { className: 'quiet' }, label), one.element) };
     });
   const stack = h('div', { className: 'stack' }, rows.map(({ row }) => row));
   const begin = h('button', { type: 'button', className: 'chip', 'aria-label': `Set ${binding.label}`,
                               onclick: () => binding.set(schema.initial(node)) }, 'Set');
-  const optional = node.required?.some((name) => name !== 'type');
+  const optional = rows.every(({ node: below }) => below.default === undefined);
   return {
     element: h('div', { className: 'members' }, begin, stack),
     refresh() {
@@ -192,12 +192,13 @@ function union(schema, forms, binding) {
   };
 }
 
+const FORM_TITLES = { number: 'Number', integer: 'Number', array: 'List', string: 'Name',
+                      blackbody_k: 'Black body', wavelengths_nm: 'Table' };
+
 function formTitle(form) {
-  if (form.title) return form.title;
   if ('const' in form) return words(String(form.const));
-  const tag = form.properties?.type?.const ?? form.required?.[0];
-  if (tag) return words(tag);
-  return { number: 'Number', integer: 'Number', array: 'List', string: 'Name' }[form.type] ?? 'Other';
+  const [first] = form.required ?? [];
+  return FORM_TITLES[form.type] ?? FORM_TITLES[first] ?? form.title ?? words(first ?? 'other');
 }
 
 /** Anything else, as JSON; long lists are shown by their length until they are opened. */

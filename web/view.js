@@ -43,6 +43,7 @@ export class View extends EventTarget {
   change() {
     this.#version++;
     this.#changedAt = performance.now();
+    this.canvas.dataset.state = 'rough';
     this.#pump();
   }
 
@@ -183,7 +184,7 @@ export class View extends EventTarget {
     this.canvas.width = bitmap.width;
     this.canvas.height = bitmap.height;
     this.context.transferFromImageBitmap(bitmap);
-    this.canvas.dataset.state = this.settled ? 'sharp' : 'rough';
+    if (this.settled) this.canvas.dataset.state = 'sharp';
     this.dispatchEvent(new CustomEvent('frame', {
       detail: { ...facts, totalMs: now - flight.startedAt, moving: flight.moving } }));
   }

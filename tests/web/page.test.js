@@ -179,7 +179,7 @@ for (const size of Object.keys(SIZES)) {
       assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
     });
 
-    visit(size, 'dragging looks around and dragging the sun moves it', async (person, page) => {
+    visit(size, 'dragging looks around', async (person, page) => {
       await person.drag({ x: 0.2, y: 0.7 }, { x: 0.5, y: 0.8 });
       const looked = (await person.scene()).camera;
       assert.ok(looked.heading_deg < -5, `heading ${looked.heading_deg}`);
@@ -193,8 +193,7 @@ for (const size of Object.keys(SIZES)) {
       assert.equal(camera, undefined);
       assert.ok(sun.elevation_deg > 12 && sun.elevation_deg < 20, `elevation ${sun.elevation_deg}`);
       assert.ok(sun.azimuth_deg > 2, `azimuth ${sun.azimuth_deg}`);
-    }, { hash: '#preset=earth&sun.elevation_deg=10&sun.azimuth_deg=0&camera.pitch_deg=10'
-           .replace('&camera.pitch_deg=10', '') });
+    }, { hash: '#preset=earth&sun.elevation_deg=10&sun.azimuth_deg=0' });
 
     visit(size, 'a link is the scene, and back goes back', async (person, page) => {
       assert.equal((await person.scene()).sun.elevation_deg, 3);
@@ -247,7 +246,7 @@ for (const size of Object.keys(SIZES)) {
       await person.tab('Take away');
       await page.getByLabel('Width', { exact: true }).fill('320');
       for (const [format, start] of [['png', PNG], ['exr', EXR]]) {
-        await page.getByLabel('As').selectOption(format);
+        await page.getByLabel('As', { exact: true }).selectOption(format);
         const [download] = await Promise.all([
           page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
         assert.equal(download.suggestedFilename(), `earth.${format}`);
@@ -264,8 +263,6 @@ for (const size of Object.keys(SIZES)) {
 
     for (const colorScheme of ['light', 'dark']) {
       visit(size, `it is accessible in the ${colorScheme}`, async (person, page) => {
-        await page.addScriptTag({ path: new URL('node_modules/axe-core/axe.min.js', import.meta.url).pathname })
-          .catch(() => {});
         const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
         await page.evaluate(axe);
         for (const tab of ['Skies', 'Adjust', 'Take away']) {

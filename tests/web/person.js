@@ -1,6 +1,7 @@
 // A person at the page: a daemon, a browser, hands, and eyes for what goes wrong.
 
 import { spawn } from 'node:child_process';
+import { createHash } from 'node:crypto';
 import { once } from 'node:events';
 import { mkdir } from 'node:fs/promises';
 import { createServer } from 'node:net';
@@ -14,7 +15,7 @@ const binary = process.env.CYANOMETER_BINARY ?? path.join(root, 'build/cyanomete
 const screenshots = path.join(root, 'build/web-screenshots');
 
 export const SIZES = {
-  desktop: { viewport: { width: 1280, height: 800 } },
+  desktop: { viewport: { width: 1120, height: 700 } },
   phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true,
            deviceScaleFactor: 2 },
 };
@@ -167,9 +168,10 @@ export class Person {
   requests() {
     return this.page.evaluate(() => window.frameRequests);
   }
-  /** The picture as bytes, to see whether it has changed. */
+  /** A fingerprint of the picture, to see whether it has changed. */
   async look() {
-    return (await this.page.locator('#picture').screenshot()).toString('base64');
+    const address = await this.page.locator('#picture').evaluate((canvas) => canvas.toDataURL());
+    return createHash('sha256').update(address).digest('hex');
   }
   async photograph(name) {
     await mkdir(screenshots, { recursive: true });

@@ -53,7 +53,7 @@ trouble('a daemon that went away comes back without a reload', /ERR_|Failed to f
     await daemon.stop();
     await person.type('sun.elevation_deg', '8');
     await page.waitForFunction(() => /does not answer/.test(document.getElementById('status').textContent));
-    assert.equal(await person.page.locator('#picture').evaluate((c) => c.width), 1280);
+    assert.equal(await person.look(), first);
     await person.photograph('gone');
     await daemon.resume();
     await person.rest();
@@ -63,13 +63,13 @@ trouble('a daemon that went away comes back without a reload', /ERR_|Failed to f
 
 trouble('a refusal is shown beside its control, under the last good picture', /400/,
   async (person, page, status) => {
-    const width = await page.locator('#picture').evaluate((c) => c.width);
+    const first = await person.look();
     await person.type('sun.elevation_deg', '500');
     const problem = person.control('sun.elevation_deg').locator('.problem');
     await problem.waitFor();
     assert.match(await problem.innerText(), /90/);
     assert.match(await status.innerText(), /last good picture/);
-    assert.equal(await page.locator('#picture').evaluate((c) => c.width), width);
+    assert.equal(await person.look(), first);
     await person.photograph('refused');
     await person.type('sun.elevation_deg', '9');
     await person.rest();
