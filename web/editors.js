@@ -39,13 +39,20 @@ export function number(node, binding) {
     'aria-label': unit ? `${binding.label}, ${node['x-unit']}` : binding.label,
     placeholder: node['x-default'] ? 'auto' : 'none',
     onchange: () => {
+      typing.end();
       const value = parse(typed.value);
       if (value === undefined) binding.complain('This needs a number.');
       else binding.set(value);
     },
-    onkeydown: (event) => stepByKey(event, slider, typed),
+    onkeydown: (event) => {
+      if (event.key !== 'ArrowUp' && event.key !== 'ArrowDown') return;
+      event.preventDefault();
+      typing.end();
+      step(slider, (event.shiftKey ? 10 : 1) * (event.key === 'ArrowUp' ? 1 : -1));
+    },
     onfocus: () => typed.select(),
   });
+  const typing = watchTyping(typed);
   return {
     element: h('div', { className: 'number' }, slider,
                h('span', { className: 'amount' }, typed, h('span', { className: 'unit' }, unit))),
@@ -56,18 +63,23 @@ export function number(node, binding) {
       slider.setAttribute('aria-valuetext', known ? `${format(value)} ${node['x-unit'] ?? ''}`
                                                   : 'automatic');
       slider.style.setProperty('--filled', `${(100 * slider.value) / scale.positions}%`);
-      typed.value = known ? format(value) : '';
+      if (!typing.now) typed.value = known ? format(value) : '';
+      slider.classList.toggle('unset', !known);
     },
   };
 }
 
-function stepByKey(event, slider, typed) {
-  if (event.key !== 'ArrowUp' && event.key !== 'ArrowDown') return;
-  event.preventDefault();
-  const distance = (event.shiftKey ? 10 : 1) * (event.key === 'ArrowUp' ? 1 : -1);
+// What somebody is typing must not be overwritten by what the scene says meanwhile.
+function watchTyping(field) {
+  const typing = { now: false, end: () => { typing.now = false; } };
+  field.addEventListener('input', () => { typing.now = true; });
+  field.addEventListener('blur', typing.end);
+  return typing;
+}
+
+function step(slider, distance) {
   slider.valueAsNumber += distance;
   slider.dispatchEvent(new Event('input'));
-  typed.select();
 }
 
 function choice(values, titles, binding) {
@@ -197,14 +209,17 @@ const FORM_TITLES = { number: 'Number', integer: 'Number', array: 'List', string
 
 function formTitle(form) {
   if ('const' in form) return words(String(form.const));
+  const tag = form.properties?.type?.const;
+  if (tag) return words(tag);
   const [first] = form.required ?? [];
   return FORM_TITLES[form.type] ?? FORM_TITLES[first] ?? form.title ?? words(first ?? 'other');
 }
 
-/** Anything else, as JSON; long lists are shown by their length until they are opened. */
+/** Anything else, as JSON; a date and time may stand without its quotes. */
 function text(binding) {
   const area = h('textarea', {
     rows: 1, spellcheck: false, 'aria-label': binding.label, onchange: () => {
+      typing.end();
       try {
         binding.set(/^[[{"\d-]/.test(area.value.trim()) ? JSON.parse(area.value) : area.value);
       } catch {
@@ -213,9 +228,11 @@ function text(binding) {
       }
     },
   });
+  const typing = watchTyping(area);
   return {
     element: area,
     refresh() {
+      if (typing.now) return;
       const value = binding.get();
       area.value = value === undefined ? '' : typeof value === 'string' ? value
                                                                         : JSON.stringify(value);

@@ -33,9 +33,9 @@ function say(text, kind = 'note') {
 }
 
 function sayRefused(error) {
-  const beside = error.pointer !== undefined &&
-    controls?.complain(fromPointer(error.pointer), error.message);
-  say(beside ? `${error.message} The last good picture is still shown.` : error.message, 'refused');
+  const beside = error.pointer && controls?.complain(fromPointer(error.pointer), error.message);
+  say(beside ? 'The daemon refuses this scene; the last good picture is still shown.'
+             : error.message, 'refused');
 }
 
 view.addEventListener('waiting', ({ detail }) => say(inWords(detail), 'waiting'));

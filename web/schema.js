@@ -5,6 +5,15 @@
 
 import { isObject } from './paths.js';
 
+// JSON has no order of its own. Members that are not named here come in the middle.
+const FIRST = ['elevation_deg', 'azimuth_deg', 'angular_diameter_deg', 'altitude_km', 'heading_deg',
+               'pitch_deg', 'fov_deg', 'exposure_ev', 'tone_map', 'name', 'optical_depth',
+               'visibility_km', 'scattering_per_km', 'absorption_per_km', 'refractive_index',
+               'pressure_pa', 'temperature_k', 'value', 'latitude_deg', 'longitude_deg'];
+const LAST = ['phase', 'profile', 'disc_samples', 'distance_km', 'place'];
+const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) - FIRST.length
+                                             : LAST.indexOf(name) + 1);
+
 const USUAL_PRIMARIES_NM = [680, 550, 440];
 
 export class Schema {
@@ -41,13 +50,15 @@ export class Schema {
       .filter((form) => form.type !== 'null' && form.const !== null);
   }
 
-  /** The members of an object form; what a slider of the whole is about, its `value` is too. */
+  /** The members of an object form, what people reach for first in front. */
   members(form) {
-    return Object.entries(form.properties ?? {}).map(([name, below]) => {
-      const member = this.follow(below);
-      const inherits = name === 'value' || name === 'power_law';
-      return [name, inherits && form['x-slider'] ? { 'x-slider': form['x-slider'], ...member } : member];
-    });
+    return Object.entries(form.properties ?? {}).sort(([a], [b]) => rank(a) - rank(b))
+      .map(([name, below]) => {
+        const member = this.follow(below);
+        // What a slider of the whole is about, its `value` is too.
+        const inherits = form['x-slider'] && (name === 'value' || name === 'power_law');
+        return [name, inherits ? { 'x-slider': form['x-slider'], ...member } : member];
+      });
   }
 
   /** The groups of members of which an object form takes one at a time. */

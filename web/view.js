@@ -126,10 +126,13 @@ export class View extends EventTarget {
       return undefined;
     }
     if (restsIn > 0 || !fresh) {
-      return { ...this.#sizeFor(Math.min(full, this.#movingPixels)), moving: true };
+      return { ...this.#sizeUpTo(this.#movingPixels), moving: true };
     }
     if (this.#shown.pixels >= full) return undefined;
-    return { ...this.#sizeFor(Math.min(full, this.#shown.pixels * SHARPEN_STEP)), moving: false };
+    return { ...this.#sizeUpTo(this.#shown.pixels * SHARPEN_STEP), moving: false };
+  }
+  #sizeUpTo(pixels) {
+    return pixels >= this.#fullPixels() ? this.fullSize() : this.#sizeFor(pixels);
   }
 
   #abandon(now) {
