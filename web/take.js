@@ -21,7 +21,7 @@ function downloads(state, view) {
   const format = h('select', { id: 'format' },
                    Object.entries(FORMATS).map(([value, title]) => h('option', { value }, title)));
   const width = h('input', { type: 'number', id: 'width', min: 1, max: 16384, step: 1, value: 1920 });
-  const height = h('output', { className: 'quiet' });
+  const height = h('input', { type: 'number', id: 'height', min: 1, max: 16384 * 6, step: 1 });
   const say = h('p', { className: 'help', role: 'status' });
   const sizes = h('div', { className: 'adders', role: 'group', 'aria-label': 'Usual widths' },
     [['Window', () => view.fullSize().width], ...WIDTHS.map((w) => [String(w), () => w])]
@@ -29,14 +29,12 @@ function downloads(state, view) {
         width.value = pick();
         showHeight();
       } }, title)));
-  const size = () => {
-    const columns = Math.max(1, Math.round(width.valueAsNumber || 1));
-    const shape = view.shape();
-    // Panoramas are refused in any other shape; the window's shape may be rounded.
-    return { width: columns, height: Math.max(1, Math.round(columns / shape)) };
-  };
+  const pixels = (field) => Math.max(1, Math.round(field.valueAsNumber || 1));
+  const size = () => ({ width: pixels(width), height: pixels(height) });
+  // The height follows the window's shape until somebody types one; panoramas have their own.
   const showHeight = () => {
-    height.textContent = `× ${size().height} px`;
+    height.disabled = view.hasOwnShape();
+    height.value = Math.max(1, Math.round(pixels(width) / view.shape()));
   };
   const button = h('button', { type: 'submit', className: 'primary' }, 'Download');
   const save = async (event) => {
@@ -55,14 +53,14 @@ function downloads(state, view) {
     }
   };
   width.addEventListener('input', showHeight);
-  state.addEventListener('change', showHeight);
-  window.addEventListener('resize', showHeight);
+  state.addEventListener('change', () => { if (view.hasOwnShape() || height.disabled) showHeight(); });
   showHeight();
   return h('form', { className: 'download', onsubmit: save },
     h('h2', {}, 'Picture'),
     h('div', { className: 'row' }, h('label', { for: 'format' }, 'As'), format),
     h('div', { className: 'row' }, h('label', { for: 'width' }, 'Width'),
-      h('span', { className: 'amount' }, width, height)),
+      width),
+    h('div', { className: 'row' }, h('label', { for: 'height' }, 'Height'), height),
     sizes, button, say);
 }
 

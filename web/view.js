@@ -64,6 +64,10 @@ export class View extends EventTarget {
   #projection() {
     return this.scene().camera?.projection;
   }
+  /** True for panoramas, which are refused in any shape but their own. */
+  hasOwnShape() {
+    return this.#projection() in FIXED_SHAPES;
+  }
   shape() {
     return FIXED_SHAPES[this.#projection()] ?? this.canvas.clientWidth / this.canvas.clientHeight;
   }
@@ -153,7 +157,7 @@ export class View extends EventTarget {
 
   // Rounding of a small frame's size must not show as bars: only panoramas keep their own shape.
   #fit() {
-    this.canvas.classList.toggle('filling', !(this.#projection() in FIXED_SHAPES));
+    this.canvas.classList.toggle('filling', !this.hasOwnShape());
   }
 
   async #fly({ width, height, moving }) {
