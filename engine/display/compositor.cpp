@@ -75,16 +75,24 @@ std::span<const float> FrameStore::samples(std::size_t group, std::size_t k) con
 
 double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
   constexpr double middle_grey = 0.18;
+  // What is 8 stops below the mean is black in the picture however it is exposed: night sides and
+  // grounds in the shade don't make the rest too bright.
+  constexpr double black = 1.0 / 256;
   // A sample of the pixels is as good: their mean varies far less than an eye can tell.
   std::size_t step = std::max<std::size_t>(luminance.size() / 65536, 1) | 1;
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < luminance.size(); i += step) {
-    if (luminance[i] > 0) {
-      sum += std::log2(luminance[i]);
+  auto mean_over = [&](double least, auto value) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < luminance.size(); i += step) {
+      if (luminance[i] <= least) continue;
+      sum += value(luminance[i]);
       ++count;
     }
-  }
-  return count > 0 ? std::log2(middle_grey * white_card) - sum / count : 0;
+    return count > 0 ? sum / count : 0;
+  };
+  double mean = mean_over(0, [](double y) { return y; });
+  if (!(mean > 0)) return 0;
+  double log_mean = mean_over(black * mean, [](double y) { return std::log2(y); });
+  return std::log2(middle_grey * white_card) - log_mean;
 }
 
 Compositor::Compositor(vulkan::Device& device)
