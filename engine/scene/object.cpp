@@ -2,6 +2,9 @@
 
 namespace cyanometer {
 
+namespace {
+
+/// The suffix of a name is its unit.
 std::string unit_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> suffixes{
       {"_per_km", "1/km"}, {"_km", "km"}, {"_deg", "deg"}, {"_nm", "nm"}, {"_um", "um"},
@@ -10,6 +13,14 @@ std::string unit_of(const std::string& name) {
     if (name.ends_with(suffix)) return unit;
   return "";
 }
+
+}  // namespace
+
+Label::Label(std::string name_, std::string title_, std::string help_)
+    : name(std::move(name_)),
+      title(std::move(title_)),
+      help(std::move(help_)),
+      unit(unit_of(name)) {}
 
 void Label::add_to(Json& schema, const std::string& name_of_group) const {
   schema["title"] = title;
@@ -29,6 +40,10 @@ void describe_member(Json& object_schema, const Label& label, Json schema,
   label.add_to(schema, label.group.empty() ? around.group : label.group);
   object_schema["properties"][label.name] = std::move(schema);
   if (label.required && around.whole) object_schema["required"].push_back(label.name);
+}
+
+void replace_member(Json& inherited, const Json& patch, const std::string& name) {
+  if (const auto over = patch.find(name); over != patch.end()) inherited[name] = *over;
 }
 
 void merge_member(Json& inherited, const Json& patch, const std::string& name,

@@ -15,22 +15,28 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-/// What is no JSON is a string, which must be UTF-8 like all of a document.
+/// What the link says must be UTF-8, like all of a document.
+void check_utf8(const std::string& text, const std::string& pointer) {
+  try {
+    static_cast<void>(Json(text).dump());
+  } catch (const Json::type_error&) {
+    throw SceneError(pointer, quote(text), "text in UTF-8",
+                     "The link says " + quote(text) + ", which is not UTF-8.");
+  }
+}
+
 Json value_of(const std::string& text, const std::string& pointer) {
   try {
     return parse_json(text);
   } catch (const SceneError&) {
-    try {
-      static_cast<void>(Json(text).dump());
-      return text;
-    } catch (const Json::type_error&) {
-      throw SceneError(pointer, quote(text), "text in UTF-8", pointer + " is not UTF-8.");
-    }
+    check_utf8(text, pointer);
+    return text;
   }
 }
 
 void set(Json& document, const std::string& path, const std::string& value) {
   constexpr std::size_t deepest = 16;
+  check_utf8(path, "");
   const auto parts = parts_of(path);
   if (parts.size() > deepest)
     throw SceneError("", quote(path), "a path of at most " + std::to_string(deepest) + " names",
