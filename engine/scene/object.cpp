@@ -95,7 +95,6 @@ void Alternatives::check(const Json& object, const At& at) const {
 
 void Alternatives::drop_inherited(Json& inherited, const Json& patch) const {
   const auto kept = fitting(patch);
-  if (kept.empty()) return;  // given twice: reading refuses it
   for (const auto& group : groups)
     for (const auto& name : group)
       if (std::ranges::none_of(kept, [&](std::size_t i) {

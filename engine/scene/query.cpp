@@ -52,12 +52,13 @@ void set(Json& document, const std::string& path, const std::string& value) {
       throw SceneError(pointer, quote(*object), "an object",
                        pointer + " is given a value and members.");
     pointer = pointer_to(pointer, parts[i]);
-    if (last && object->contains(parts[i]))
+    const bool there = object->contains(parts[i]);
+    if (last && there)
       throw SceneError(pointer, quote(value), "given once", pointer + " is given twice.");
     Json& member = (*object)[parts[i]];
     if (last)
       member = value_of(value, pointer);
-    else if (member.is_null())
+    else if (!there)
       member = Json::object();
     object = &member;
   }
