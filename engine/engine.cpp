@@ -31,8 +31,8 @@ glm::dvec3 unit_vector(const Direction& d) {
           std::sin(elevation)};
 }
 
-/// Some 256 of the frame's rays, one from each cell of an even grid, off its centre so that no row or
-/// column of the picture is looked at twice as often as another.
+/// Some 256 of the frame's rays, one from each cell of an even grid, off its centre so that no
+/// row or column of the picture is looked at twice as often as another.
 std::vector<glm::dvec3> probe_directions(Physics<double>& camera) {
   constexpr int side = 16;
   int width = camera.scene.width, height = camera.scene.height;
@@ -52,7 +52,8 @@ std::vector<glm::dvec3> probe_directions(Physics<double>& camera) {
   return directions;
 }
 
-/// Radiance of the channels in which errors are measured: X, Y, Z or the wavelengths themselves.
+/// Radiance of the channels in which errors are measured: X, Y, Z or the wavelengths
+/// themselves.
 Samples in_error_channels(const Samples& radiance, const Scene& scene, const Output& output) {
   if (scene.spectrum.colour != Colour::cie) return radiance;
   Samples result;
@@ -66,12 +67,10 @@ Samples in_error_channels(const Samples& radiance, const Scene& scene, const Out
 }
 
 std::string describe(const Scene& scene, const Plan& plan) {
-  nlohmann::json document{{"scene", canonical(scene)},
-                          {"method", plan.method},
-                          {"options", plan.options},
-                          {"wavelengths_nm", plan.wavelengths_nm},
-                          {"error", plan.expected_error},
-                          {"version", version()}};
+  nlohmann::json document{
+      {"scene", canonical(scene)},    {"method", plan.method},
+      {"options", plan.options},      {"wavelengths_nm", plan.wavelengths_nm},
+      {"error", plan.expected_error}, {"version", version()}};
   return document.dump();
 }
 
@@ -118,16 +117,42 @@ struct Engine::Parts {
     double device_ms = 0;
   };
 
-  /// Calls `visit` for every tile once it is traced.
+  /// Some of the wavelengths of a problem, on the device.
+  struct Batch {
+    std::size_t first;  ///< wavelength
+    Problem problem;
+    UploadedScene scene;
+  };
+
+  /// All wavelengths; the rays are `directions`, or the camera's where there are none.
+  std::vector<Batch> upload(const Problem& problem,
+                            const std::vector<glm::dvec3>& directions = {}) {
+    std::vector<Batch> batches;
+    std::size_t count = problem.wavelengths_nm.size();
+    for (std::size_t first = 0; first < count; first += wavelengths_at_once) {
+      Problem part =
+          at_wavelengths(problem, first, std::min(wavelengths_at_once, count - first));
+      Physics<float> physics = pack<float>(part);
+      if (!directions.empty()) set_directions(physics, directions);
+      batches.push_back({first, std::move(part), UploadedScene(device, physics)});
+    }
+    return batches;
+  }
+
+  /// Calls `visit(batch, tile)` for every tile and batch once it is traced.
   template <typename Visit>
-  void trace_tiles(Tracer& tracer, Method& method, const MethodOptions& options,
-                   const UploadedScene& scene, int rays, Visit visit) {
-    int at_once = std::min(method.rays_at_once(scene, options, pacer), rays);
-    vulkan::Buffer values(device, Tile::bytes(scene.groups(), at_once), vulkan::Memory::host);
+  void trace_tiles(Tracer& tracer, const std::string& name, const MethodOptions& options,
+                   const std::vector<Batch>& batches, int rays, Visit visit) {
+    Method& m = method(name);
+    const UploadedScene& largest = batches.front().scene;
+    int at_once = std::min(m.rays_at_once(largest, options, pacer), rays);
+    vulkan::Buffer values(device, Tile::bytes(largest.groups(), at_once), vulkan::Memory::host);
     for (int first = 0; first < rays; first += at_once) {
       Tile tile{first, std::min(at_once, rays - first), values};
-      method.trace(tracer, scene, options, tile);
-      visit(tile);
+      for (std::size_t b = 0; b < batches.size(); ++b) {
+        m.trace(tracer, batches[b].scene, options, tile);
+        visit(b, tile);
+      }
       tracer.watch.progress(static_cast<double>(tile.first_ray + tile.rays) / rays);
     }
   }
@@ -137,28 +162,30 @@ struct Engine::Parts {
                           const Watch& watch) {
     Traced traced;
     if (directions.empty()) return traced;
-    Physics<float> physics = pack<float>(problem);
-    set_directions(physics, directions);
-    UploadedScene scene(device, physics);
+    std::vector<double> dark(problem.wavelengths_nm.size(), 0.0);
+    traced.radiance.assign(directions.size(), dark);
+    traced.transmittance.assign(directions.size(), dark);
+    std::vector<Batch> batches = upload(problem, directions);
     Tracer tracer{device, commands, pacer, watch};
-    std::size_t wavelengths = problem.wavelengths_nm.size();
-    bool scattered = problem.scattering_orders != 0;
-    trace_tiles(tracer, method(method_name), options, scene,
-                static_cast<int>(directions.size()), [&](const Tile& tile) {
-                  auto values = tile.values.as<const glm::vec4>();
-                  auto value = [&](int quantity, std::size_t w, int ray) -> double {
-                    std::size_t plane = quantity * scene.groups() + w / 4;
-                    return values[plane * tile.rays + ray][static_cast<int>(w % 4)];
-                  };
-                  for (int ray = 0; ray < tile.rays; ++ray) {
-                    auto& radiance = traced.radiance.emplace_back(wavelengths, 0.0);
-                    auto& transmittance = traced.transmittance.emplace_back(wavelengths);
-                    for (std::size_t w = 0; w < wavelengths; ++w) {
-                      if (scattered) radiance[w] = value(0, w, ray) + value(1, w, ray);
-                      transmittance[w] = value(2, w, ray);
-                    }
-                  }
-                });
+    auto read = [&](std::size_t b, const Tile& tile) {
+      const Batch& batch = batches[b];
+      auto values = tile.values.as<const glm::vec4>();
+      for (std::size_t w = 0; w < batch.problem.wavelengths_nm.size(); ++w) {
+        for (int ray = 0; ray < tile.rays; ++ray) {
+          auto value = [&](int quantity) -> double {
+            std::size_t plane = quantity * batch.scene.groups() + w / 4;
+            return values[plane * tile.rays + ray][static_cast<int>(w % 4)];
+          };
+          std::size_t at = tile.first_ray + ray;
+          if (problem.scattering_orders != 0) {
+            traced.radiance[at][batch.first + w] = value(0) + value(1);
+          }
+          traced.transmittance[at][batch.first + w] = value(2);
+        }
+      }
+    };
+    trace_tiles(tracer, method_name, options, batches, static_cast<int>(directions.size()),
+                read);
     traced.device_ms = tracer.device_ms;
     return traced;
   }
@@ -188,7 +215,7 @@ struct Engine::Parts {
                                                  : scene.spectrum.wavelengths_nm;
   }
 
-  void trace_frame(const Scene& scene, const Problem& problem, const Plan& plan,
+  void trace_frame(const Problem& problem, const Plan& plan,
                    const std::vector<PlaneGroup>& groups, const Watch& watch, Frame& frame,
                    FrameStore& store);
   void display(const Scene& scene, const Output& output, const Watch& watch, Frame& frame,
@@ -208,22 +235,22 @@ Plan Engine::plan(const Scene& scene, const Watch& watch) {
   return parts_->plan_frame(scene, watch);
 }
 
-void Engine::Parts::trace_frame(const Scene& scene, const Problem& problem, const Plan& plan,
+void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
                                 const std::vector<PlaneGroup>& groups, const Watch& watch,
                                 Frame& frame, FrameStore& store) {
-  UploadedScene uploaded(device, pack<float>(problem));
-  StarPixels stars;
-  if (scene.image.show.stars) {
-    Physics<double> camera = pack<double>(problem);
-    stars = star_pixels(problem, camera);
+  std::vector<Batch> batches = upload(problem);
+  std::vector<Compositor::Job> jobs;
+  for (const Batch& batch : batches) {
+    jobs.push_back(compositor.prepare(device, batch.problem, batch.scene, groups, batch.first,
+                                      problem.wavelengths_nm.size()));
   }
-  Compositor::Job job = compositor.prepare(device, uploaded, groups, stars);
   Tracer tracer{device, commands, pacer, watch};
-  trace_tiles(tracer, method(plan.method), plan.options, uploaded,
-              static_cast<int>(store.pixels), [&](const Tile& tile) {
-                compositor.compose(commands, job, tile, store);
-                tracer.submit();
-              });
+  auto compose = [&](std::size_t b, const Tile& tile) {
+    compositor.compose(commands, jobs[b], tile, store);
+    tracer.submit();
+  };
+  trace_tiles(tracer, plan.method, plan.options, batches, static_cast<int>(store.pixels),
+              compose);
   frame.render_ms += tracer.device_ms;
 }
 
@@ -253,7 +280,7 @@ Frame Engine::render(const Scene& scene, const Watch& watch) {
       encoding(scene.image.format).displayed);
   frame.prepare_ms = ms_since(start);
   auto rendering = Clock::now();
-  parts_->trace_frame(scene, problem, frame.plan, groups, watch, frame, *store);
+  parts_->trace_frame(problem, frame.plan, groups, watch, frame, *store);
   parts_->display(scene, output, watch, frame, *store);
   frame.render_ms = ms_since(rendering);
   bool rgb = scene.image.channels == Channels::rgb;
@@ -276,8 +303,7 @@ std::vector<double> direct_irradiance(Physics<double>& physics,
                                       const std::vector<double>& transmittance) {
   glm::dvec3 camera(0, 0, physics.scene.planet_radius_km + physics.scene.camera_altitude_km);
   auto sun = physics.sun_ray(camera, glm::dvec3(0));
-  bool lit = sun.direction.z > 0 &&
-             !physics.path_from_camera(sun.direction).meets_ground;
+  bool lit = sun.direction.z > 0 && !physics.path_from_camera(sun.direction).meets_ground;
   std::vector<double> direct(transmittance.size(), 0.0);
   for (std::size_t w = 0; lit && w < direct.size(); ++w) {
     direct[w] = transmittance[w] * sun.irradiance * sun.direction.z;
@@ -333,7 +359,8 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   if (irradiance) {
     Physics<double> physics = pack<double>(problem);
     glm::dvec3 camera(0, 0, problem.planet_radius_km + problem.camera.altitude_km);
-    HemisphereRule sky = hemisphere_rule(problem, true), below = hemisphere_rule(problem, false);
+    HemisphereRule sky = hemisphere_rule(problem, true),
+                   below = hemisphere_rule(problem, false);
     std::size_t count = sunlight.size();
     Samples fluxes{
         direct_irradiance(

@@ -1,5 +1,5 @@
-// The engine: scene in, frame out. It owns the Vulkan device and knows no HTTP. All members must be
-// called from one thread; frames may be read and encoded on any other.
+// The engine: scene in, frame out. It owns the Vulkan device and knows no HTTP. All members
+// must be called from one thread; frames may be read and encoded on any other.
 #pragma once
 
 #include <array>
@@ -60,10 +60,10 @@ struct Frame {
     std::string channel;   ///< EXR channel name: "R", "inscatter.G", "550nm", "transmittance.B"
     const float* samples;  ///< height rows of width, from the top; valid while the frame lives
   };
-  std::vector<Plane> planes;              ///< image channels first, then layers
-  const unsigned char* rgbx = nullptr;    ///< 4 bytes a pixel, sRGB; null where not asked for
+  std::vector<Plane> planes;            ///< image channels first, then layers
+  const unsigned char* rgbx = nullptr;  ///< 4 bytes a pixel, sRGB; null where not asked for
   double exposure_ev = 0;
-  double white_luminance = 0;             ///< cd/m^2 of 1.0, 0 where the planes are radiances
+  double white_luminance = 0;  ///< cd/m^2 of 1.0, 0 where the planes are radiances
   double render_ms = 0, prepare_ms = 0;
   Plan plan;
   std::string description;  ///< JSON: canonical scene, method, error, version: makes it again
@@ -95,7 +95,7 @@ struct MethodOption {
 };
 struct MethodDescription {
   std::string name, title, summary;
-  int highest_order = -1;  ///< the highest order it computes; -1 all
+  int highest_order = -1;           ///< the highest order it computes; -1 all
   std::vector<std::string> limits;  ///< where it is not valid, in words
   std::vector<MethodOption> options;
 };

@@ -53,16 +53,16 @@ HemisphereRule hemisphere_rule(const Problem& problem, bool upper) {
   static const GaussRule along = gauss_legendre(elevations), around = gauss_legendre(azimuths);
   HemisphereRule rule;
   double sun_azimuth = std::atan2(problem.sun_direction[0], problem.sun_direction[1]);
-  std::vector<double> pieces = upper ? smooth_pieces(problem, 0, pi / 2)
-                                     : smooth_pieces(problem, -pi / 2, 0);
+  std::vector<double> pieces =
+      upper ? smooth_pieces(problem, 0, pi / 2) : smooth_pieces(problem, -pi / 2, 0);
   for (std::size_t piece = 0; piece + 1 < pieces.size(); ++piece) {
     double low = pieces[piece], width = pieces[piece + 1] - low;
     for (int i = 0; i < elevations; ++i) {
       // Points gather at both ends of a piece: there are the horizon, the limb or the sun.
       double t = along.nodes[i], s = t * t * (3 - 2 * t), ds = 6 * t * (1 - t);
       double elevation = low + width * s;
-      double ring = along.weights[i] * ds * width * std::cos(elevation) *
-                    std::abs(std::sin(elevation));
+      double ring =
+          along.weights[i] * ds * width * std::cos(elevation) * std::abs(std::sin(elevation));
       for (int k = 0; k < azimuths; ++k) {
         // Radiance is even about the sun's azimuth, and strongest there.
         double u = around.nodes[k], from_sun = pi * u * u;

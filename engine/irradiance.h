@@ -14,8 +14,8 @@ struct HemisphereRule {
   std::vector<double> weights;
 };
 
-/// Gauss-Legendre points over the upper or the lower hemisphere of the camera's place, split where the
-/// radiance jumps or bends (horizon, limbs) and gathered about the sun.
+/// Gauss-Legendre points over the upper or the lower hemisphere of the camera's place, split
+/// where the radiance jumps or bends (horizon, limbs) and gathered about the sun.
 HemisphereRule hemisphere_rule(const Problem& problem, bool upper);
 
 /// Nodes and weights of n-point Gauss-Legendre quadrature on [0, 1].

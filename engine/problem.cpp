@@ -347,4 +347,22 @@ Output make_output(const Scene& scene, const std::vector<double>& wavelengths_nm
   return output;
 }
 
+Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t count) {
+  Problem part = problem;
+  auto keep = [&](auto& by_wavelength) {
+    auto begin = by_wavelength.begin() + static_cast<std::ptrdiff_t>(first);
+    by_wavelength = {begin, begin + static_cast<std::ptrdiff_t>(count)};
+  };
+  keep(part.wavelengths_nm);
+  keep(part.ground_albedo);
+  keep(part.limb_darkening_exponent);
+  for (Medium& medium : part.media) {
+    keep(medium.scattering_per_km);
+    keep(medium.absorption_per_km);
+    if (auto* rayleigh = std::get_if<RayleighPhase>(&medium.phase)) keep(rayleigh->gamma);
+    if (auto* table = std::get_if<TabulatedPhase>(&medium.phase)) keep(table->values);
+  }
+  return part;
+}
+
 }  // namespace cyanometer

@@ -1,6 +1,6 @@
-// The scene as numbers only: what every method computes from. All in double, at the wavelengths that
-// are computed; radiance is per unit irradiance of the sun at each of them (1/sr), so that the
-// sun's strength and colour enter only at the very end, in `Output`.
+// The scene as numbers only: what every method computes from. All in double, at the wavelengths
+// that are computed; radiance is per unit irradiance of the sun at each of them (1/sr), so that
+// the sun's strength and colour enter only at the very end, in `Output`.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ using PhaseFunction =
 
 struct Medium {
   std::string name;
-  Profile profile;  ///< tables already divided by their maximum
+  Profile profile;                        ///< tables already divided by their maximum
   std::vector<double> scattering_per_km;  ///< by wavelength, where the profile is 1
   std::vector<double> absorption_per_km;
   PhaseFunction phase;  ///< idle where nothing scatters
@@ -54,16 +54,21 @@ struct Problem {
   int scattering_orders = 0;  ///< 0 is the sun and the stars alone; -1 all
 };
 
+/// The same problem at `count` of its wavelengths, from the one with index `first` on.
+Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t count);
+
 /// How radiance per unit irradiance becomes the channels of an image.
 struct Output {
-  std::vector<double> irradiance;  ///< by wavelength: spectral radiance is this times the result
-  /// Linear Rec. 709 (D65) rows: for `cie` in units of white_luminance cd/m^2, for `channels` in
-  /// spectral radiance. rgb[c][w] multiplies the result at wavelength w.
+  std::vector<double>
+      irradiance;  ///< by wavelength: spectral radiance is this times the result
+  /// Linear Rec. 709 (D65) rows: for `cie` in units of white_luminance cd/m^2, for `channels`
+  /// in spectral radiance. rgb[c][w] multiplies the result at wavelength w.
   std::array<std::vector<double>, 3> rgb;
   /// XYZ in the same unit, for errors and exposure; for `channels`, the three radiances again.
   std::array<std::vector<double>, 3> xyz;
   double white_luminance = 1000;  ///< cd/m^2 of a `cie` image's 1.0
-  double white_card = 1;  ///< Y (cie) or mean (channels) of a white card facing the sun: exposure 0
+  double white_card =
+      1;  ///< Y (cie) or mean (channels) of a white card facing the sun: exposure 0
   /// Row-major linear Rec. 709 to linear Rec. 709: the display's adaptation to `image.white`.
   std::array<double, 9> white_balance{1, 0, 0, 0, 1, 0, 0, 0, 1};
 };

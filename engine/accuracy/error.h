@@ -14,7 +14,8 @@ struct ErrorMeasure {
 
 /// d = (L - L_ref) / (max(L, L_ref) + 0.01 M_c) over pixels and channels, M_c the median of the
 /// positive L_ref of channel c; 0 where a channel is 0 in both everywhere.
-/// @param values, reference  [pixel][channel], of the same shape: the pixels that meet air or ground
+/// @param values, reference  [pixel][channel], of the same shape: the pixels that meet air or
+/// ground
 ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
                            const std::vector<std::vector<double>>& reference);
 

@@ -12,7 +12,7 @@ namespace {
 
 struct ComposePush {
   std::array<float, 4> inscatter, ground, sun, transmittance;
-  std::int32_t first_ray, rays_in_tile, first_row, mark_outside;
+  std::int32_t first_ray, rays_in_tile, first_row, accumulate, mark_outside;
 };
 struct StarsPush {
   std::int32_t first_ray, rays_in_tile, first_row, first_star, stars, planes;
@@ -22,16 +22,20 @@ struct DisplayPush {
   std::int32_t first, end;
 };
 
-/// Rows of all groups, one after another, in groups of four wavelengths.
-std::vector<glm::vec4> matrix_rows(const std::vector<PlaneGroup>& groups, int wavelength_groups) {
+/// Rows of all groups, one after another, in groups of four wavelengths from the `first` on.
+std::vector<glm::vec4> matrix_rows(const std::vector<PlaneGroup>& groups, std::size_t first,
+                                   std::size_t count) {
+  std::size_t wavelength_groups = (count + 3) / 4;
   std::vector<glm::vec4> matrix;
   for (const PlaneGroup& group : groups) {
     for (const std::vector<double>& row : group.rows) {
-      for (int g = 0; g < wavelength_groups; ++g) {
+      for (std::size_t g = 0; g < wavelength_groups; ++g) {
         glm::vec4 part(0);
-        for (int lane = 0; lane < 4; ++lane) {
-          std::size_t w = static_cast<std::size_t>(4 * g + lane);
-          if (w < row.size()) part[lane] = static_cast<float>(row[w]);
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+          std::size_t w = 4 * g + lane;
+          if (w < count && first + w < row.size()) {
+            part[static_cast<int>(lane)] = static_cast<float>(row[first + w]);
+          }
         }
         matrix.push_back(part);
       }
@@ -88,20 +92,30 @@ Compositor::Compositor(vulkan::Device& device)
       stars_(device, stars_spirv, UploadedScene::bindings + 8, sizeof(StarsPush)),
       display_(device, display_spirv, 4, sizeof(DisplayPush)) {}
 
-Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
-                                    const std::vector<PlaneGroup>& groups,
-                                    const StarPixels& stars) {
-  Job job{scene, groups, stars, upload(device, matrix_rows(groups, scene.groups())), {}};
-  if (!stars.pixels.empty()) {
-    job.star_buffers.push_back(upload(device, stars.pixels));
-    job.star_buffers.push_back(upload(device, stars.radiance));
+Compositor::Job Compositor::prepare(vulkan::Device& device, const Problem& problem,
+                                    const UploadedScene& scene,
+                                    const std::vector<PlaneGroup>& groups, std::size_t first,
+                                    std::size_t wavelengths) {
+  std::size_t count = problem.wavelengths_nm.size();
+  Job job{scene,      groups,
+          first == 0, first + count == wavelengths,
+          {},         upload(device, matrix_rows(groups, first, count)),
+          {}};
+  if (problem.show.stars) {
+    Physics<double> camera = pack<double>(problem);
+    job.stars = star_pixels(problem, camera);
+  }
+  if (!job.stars.pixels.empty()) {
+    job.star_buffers.push_back(upload(device, job.stars.pixels));
+    job.star_buffers.push_back(upload(device, job.stars.radiance));
   }
   return job;
 }
 
 void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
                          const FrameStore& store) {
-  auto first = std::lower_bound(job.stars.pixels.begin(), job.stars.pixels.end(), tile.first_ray);
+  auto first =
+      std::lower_bound(job.stars.pixels.begin(), job.stars.pixels.end(), tile.first_ray);
   auto end = std::lower_bound(first, job.stars.pixels.end(), tile.first_ray + tile.rays);
   int stars = static_cast<int>(end - first);
   for (std::size_t g = 0; g < job.groups.size(); ++g) {
@@ -110,8 +124,9 @@ void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile&
         job.scene.bind({tile.values, job.matrix, store.plane(g, 0), store.plane(g, 1),
                         store.plane(g, 2), store.plane(g, 3)});
     int first_row = static_cast<int>(4 * g);
-    ComposePush push{group.inscatter, group.ground,  group.sun, group.transmittance,
-                     tile.first_ray,  tile.rays,     first_row, g == 0};
+    ComposePush push{group.inscatter,     group.ground,   group.sun,
+                     group.transmittance, tile.first_ray, tile.rays,
+                     first_row,           !job.first,     job.last && g == 0};
     commands.dispatch(compose_, job.scene.constants(), bindings, vulkan::bytes_of(push),
                       {vulkan::groups_for(tile.rays, 64)});
     if (!group.stars || stars == 0) continue;

@@ -1,4 +1,5 @@
-// From the spectral quantities of tiles to the planes of a frame, and from those to displayed pixels.
+// From the spectral quantities of tiles to the planes of a frame, and from those to displayed
+// pixels.
 #pragma once
 
 #include <memory>
@@ -24,7 +25,8 @@ struct FrameStore {
   std::vector<vulkan::Buffer> rgbx;     ///< none where nothing is displayed
 };
 
-/// Exposure at which the geometric mean of the luminance is shown as middle grey; 0 of a black frame.
+/// Exposure at which the geometric mean of the luminance is shown as middle grey; 0 of a black
+/// frame.
 /// @param luminance  of each pixel; what is not positive does not count
 /// @param white_card  luminance that is shown as 1 at exposure 0
 double automatic_exposure_ev(std::span<const float> luminance, double white_card);
@@ -33,16 +35,20 @@ class Compositor {
  public:
   explicit Compositor(vulkan::Device& device);
 
-  /// What is composed is the same for all tiles of a frame.
+  /// What some of a frame's wavelengths add to its planes; the same for all tiles.
   struct Job {
     const UploadedScene& scene;
     const std::vector<PlaneGroup>& groups;
-    const StarPixels& stars;
+    bool first, last;  ///< of the frame's sets of wavelengths
+    StarPixels stars;
     vulkan::Buffer matrix;
     std::vector<vulkan::Buffer> star_buffers;  ///< pixels and radiances; none without stars
   };
-  Job prepare(vulkan::Device& device, const UploadedScene& scene,
-              const std::vector<PlaneGroup>& groups, const StarPixels& stars);
+  /// @param problem  at the wavelengths of `scene`, which begin with the frame's number `first`
+  /// @param wavelengths  of the whole frame
+  Job prepare(vulkan::Device& device, const Problem& problem, const UploadedScene& scene,
+              const std::vector<PlaneGroup>& groups, std::size_t first,
+              std::size_t wavelengths);
   /// Records the planes of one tile.
   void compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
                const FrameStore& store);

@@ -46,8 +46,7 @@ PlaneGroup rgb_group(const Output& output, int quantities, const std::string& pr
   PlaneGroup group;
   for (std::size_t c = 0; c < 3; ++c) {
     group.channels.push_back(prefix + "RGB"[c]);
-    group.rows[c] =
-        quantities & transmittance ? normalised(output.rgb[c]) : output.rgb[c];
+    group.rows[c] = quantities & transmittance ? normalised(output.rgb[c]) : output.rgb[c];
   }
   set_weights(group, quantities, 3);
   return group;

@@ -10,6 +10,10 @@
 
 namespace cyanometer {
 
+/// Wavelengths that are traced together. Software drivers take minutes to compile a march that
+/// keeps dozens in registers, and gain nothing from it.
+inline constexpr std::size_t wavelengths_at_once = 16;
+
 class UploadedScene {
  public:
   static constexpr int bindings = 8;  ///< 0 to 7 of shaders/device.glsl

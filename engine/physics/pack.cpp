@@ -105,8 +105,9 @@ void append_media(Physics<Real>& p, const Problem& problem) {
   for (const Medium* medium : ordered) {
     typename Physics<Real>::MediumData data{};
     set_profile(p, data, medium->profile, problem.thickness_km);
-    bool scatters = std::any_of(medium->scattering_per_km.begin(),
-                                medium->scattering_per_km.end(), [](double s) { return s > 0; });
+    bool scatters =
+        std::any_of(medium->scattering_per_km.begin(), medium->scattering_per_km.end(),
+                    [](double s) { return s > 0; });
     std::vector<double> extinction = medium->scattering_per_km;
     std::transform(extinction.begin(), extinction.end(), medium->absorption_per_km.begin(),
                    extinction.begin(), std::plus<>());
@@ -188,9 +189,9 @@ void set_sun(Physics<Real>& p, const Problem& problem) {
   p.NEAR_SUN = problem.sun_distance_km > 0;
   if (p.NEAR_SUN) {
     double radius = problem.planet_radius_km, distance = problem.sun_distance_km;
-    double foot = -radius * direction.z +
-                  std::sqrt(distance * distance -
-                            radius * radius * (1 - direction.z * direction.z));
+    double foot =
+        -radius * direction.z +
+        std::sqrt(distance * distance - radius * radius * (1 - direction.z * direction.z));
     p.scene.sun_position = Vec4(glm::dvec3(0, 0, radius) + foot * direction, 0);
     p.scene.sun_foot_km = static_cast<Real>(foot);
   }
@@ -224,9 +225,9 @@ void set_directions(Physics<Real>& physics, const std::vector<glm::dvec3>& direc
 
 std::vector<std::uint32_t> specialization(const Physics<float>& p) {
   auto bits = [](int value) { return static_cast<std::uint32_t>(value); };
-  return {bits(p.EXPONENTIALS), bits(p.TENTS),           bits(p.QUADRATICS),
-          bits(p.UNIFORMS),     bits(p.TABLES),          bits(std::max(p.MEDIA, 1)),
-          bits(p.GROUPS),       bits(p.PROJECTION),      bits(p.NEAR_SUN),
+  return {bits(p.EXPONENTIALS), bits(p.TENTS),      bits(p.QUADRATICS),
+          bits(p.UNIFORMS),     bits(p.TABLES),     bits(std::max(p.MEDIA, 1)),
+          bits(p.GROUPS),       bits(p.PROJECTION), bits(p.NEAR_SUN),
           bits(p.MANY_SUNS)};
 }
 

@@ -1,5 +1,6 @@
-// A problem in the device's layout: constituents ordered by the type of their profile, wavelengths in
-// groups of four (the rest of the last group filled with nothing), angles as sines and tangents.
+// A problem in the device's layout: constituents ordered by the type of their profile,
+// wavelengths in groups of four (the rest of the last group filled with nothing), angles as
+// sines and tangents.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,8 @@ using physics::Physics;
 template <class Real>
 Physics<Real> pack(const Problem& problem);
 
-/// Rays in these directions (unit; x east, y north, z up at the foot point) instead of the camera's.
+/// Rays in these directions (unit; x east, y north, z up at the foot point) instead of the
+/// camera's.
 template <class Real>
 void set_directions(Physics<Real>& physics, const std::vector<glm::dvec3>& directions);
 

@@ -1,5 +1,6 @@
-// The shaders' physics as C++: the very files under shaders/, compiled over GLM. With Real = float its
-// arrays are what is uploaded; with Real = double it is the oracle that the device is tested against.
+// The shaders' physics as C++: the very files under shaders/, compiled over GLM. With Real =
+// float its arrays are what is uploaded; with Real = double it is the oracle that the device is
+// tested against.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -36,8 +37,9 @@ using glm::sqrt;
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/// The device's view of one scene, and every function of shaders/physics/ and of the methods on it.
-/// None of them changes it; GLSL has no way to say so, hence references to it are not const.
+/// The device's view of one scene, and every function of shaders/physics/ and of the methods on
+/// it. None of them changes it; GLSL has no way to say so, hence references to it are not
+/// const.
 template <class Scalar>
 struct Physics {
   using Real = Scalar;
@@ -74,6 +76,7 @@ struct Physics {
   Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
 
+// clang-format off: in the order in which they build up
 #include "shaders/physics/constants.glsl"
 #include "shaders/physics/sphere.glsl"
 #include "shaders/physics/profile.glsl"
@@ -82,6 +85,7 @@ struct Physics {
 #include "shaders/physics/camera.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
+// clang-format on
 };
 
 #pragma GCC diagnostic pop

@@ -30,8 +30,9 @@ constexpr std::array<Samples, 10> sample_ladder{{{8, 4},
                                                  {256, 64}}};
 constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 
-/// Evaluations of the optical depth a millisecond on two cores of a software device; the plan may not
-/// depend on what is measured while it runs, or equal requests would have unequal answers.
+/// Evaluations of the optical depth a millisecond on two cores of a software device; the plan
+/// may not depend on what is measured while it runs, or equal requests would have unequal
+/// answers.
 constexpr double nominal_evaluations_per_ms = 4e5;
 
 MethodOptions options_of(Samples samples) {
@@ -49,9 +50,10 @@ double milliseconds(const PlanInputs& inputs, Samples samples) {
   return evaluations / nominal_evaluations_per_ms;
 }
 
-/// By step halving. The error of the midpoint rule is 4/3 of its difference from half the steps, 1/3 of
-/// that from twice the steps, and up to twice and once where the planet's shadow makes it converge
-/// slowly; the latter are stated. Costly marches are judged by the cheaper side.
+/// By step halving. The error of the midpoint rule is 4/3 of its difference from half the
+/// steps, 1/3 of that from twice the steps, and up to twice and once where the planet's shadow
+/// makes it converge slowly; the latter are stated. Costly marches are judged by the cheaper
+/// side.
 double quadrature_bound(const PlanInputs& inputs, Samples samples,
                         const std::vector<double>& wavelengths) {
   constexpr int most_samples_to_double = 1 << 14;
@@ -100,7 +102,8 @@ struct Choice {
   double quadrature_error;
 };
 
-/// The cheapest step of the ladder within the tolerance, or the last one that there is time for.
+/// The cheapest step of the ladder within the tolerance, or the last one that there is time
+/// for.
 Choice choose_samples(const PlanInputs& inputs, const std::vector<double>& wavelengths,
                       double tolerance) {
   Choice best{sample_ladder.front(),
@@ -151,8 +154,8 @@ double multiple_scattering_bound(const Scene& scene) {
       depth += medium.scattering_per_km[w] * column_km(medium.profile, problem.thickness_km);
     }
     // Each order is at most the share q of the one before that does not escape: half of what an
-    // optically thin layer scatters meets twice its depth on the way, and light from a bright ground
-    // scatters as sunlight does.
+    // optically thin layer scatters meets twice its depth on the way, and light from a bright
+    // ground scatters as sunlight does.
     double q = depth > 0 ? 1 - std::exp(-2 * depth - 2 * problem.ground_albedo[w]) : 0;
     squares += q * q;
   }

@@ -1,5 +1,5 @@
-// What to do for a scene: the named method as asked, or for `auto` the cheapest choice that meets the
-// error or the time; and the bound that is stated with it.
+// What to do for a scene: the named method as asked, or for `auto` the cheapest choice that
+// meets the error or the time; and the bound that is stated with it.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace cyanometer {
 
-/// Traces some rays of the scene and returns what they show, without the sun's disc and stars, in the
-/// channels in which errors are measured: [ray][channel].
+/// Traces some rays of the scene and returns what they show, without the sun's disc and stars,
+/// in the channels in which errors are measured: [ray][channel].
 using TraceProbe = std::function<std::vector<std::vector<double>>(
     const std::string& method, const MethodOptions& options,
     const std::vector<double>& wavelengths_nm)>;
@@ -27,7 +27,8 @@ struct PlanInputs {
 
 Plan make_plan(const PlanInputs& inputs);
 
-/// Bound on the share of the light that has met more than one event, for a method that leaves it out.
+/// Bound on the share of the light that has met more than one event, for a method that leaves
+/// it out.
 double multiple_scattering_bound(const Scene& scene);
 
 }  // namespace cyanometer

@@ -1,5 +1,5 @@
-// The scene document: JSON to Scene and back, with presets, validation and the JSON Schema, all from
-// one description of the members (`members.h`).
+// The scene document: JSON to Scene and back, with presets, validation and the JSON Schema, all
+// from one description of the members (`members.h`).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -23,7 +23,8 @@ struct SceneError : std::runtime_error {
   std::string allowed;  ///< in words: "a number from 1 to 1e7"
 };
 
-/// Parses bytes as strict UTF-8 JSON: no duplicate keys, bounded depth and size, finite numbers.
+/// Parses bytes as strict UTF-8 JSON: no duplicate keys, bounded depth and size, finite
+/// numbers.
 /// @throws SceneError with pointer "" (or that of the duplicate key)
 nlohmann::json parse_json(std::string_view bytes);
 
@@ -33,19 +34,21 @@ Scene read_scene(const nlohmann::json& document);
 
 /// The document that a link's query says: dotted paths set members, values are JSON where they
 /// parse, else strings.
-/// @throws SceneError where a path is given twice, has an empty part, or leads through no object
+/// @throws SceneError where a path is given twice, has an empty part, or leads through no
+/// object
 nlohmann::json document_from_query(
     const std::vector<std::pair<std::string, std::string>>& query);
 
-/// The whole scene as a document that reads back as the same scene: every member that is not idle,
-/// none that is, no preset. Equal scenes have equal bytes (`dump()` of this).
+/// The whole scene as a document that reads back as the same scene: every member that is not
+/// idle, none that is, no preset. Equal scenes have equal bytes (`dump()` of this).
 nlohmann::json canonical(const Scene& scene);
 
-/// RFC 7396 with the contract's additions (spectra, lists and objects of another `type` are replaced
-/// whole, an alternative form drops the inherited one, null restores a default).
+/// RFC 7396 with the contract's additions (spectra, lists and objects of another `type` are
+/// replaced whole, an alternative form drops the inherited one, null restores a default).
 nlohmann::json merge(const nlohmann::json& document, const nlohmann::json& patch);
 
-/// JSON Schema (2020-12) of the document, with titles, units, ranges, defaults and slider hints.
+/// JSON Schema (2020-12) of the document, with titles, units, ranges, defaults and slider
+/// hints.
 nlohmann::json scene_schema();
 
 struct Preset {

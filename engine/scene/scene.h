@@ -1,6 +1,7 @@
-// The scene document as a value: what a request asks for, before any physics is computed from it.
-// Every member is the one of the same name in the scene document, with the same unit; a Scene that
-// came out of `read_scene` is valid, complete and free of members that its own choices make idle.
+// The scene document as a value: what a request asks for, before any physics is computed from
+// it. Every member is the one of the same name in the scene document, with the same unit; a
+// Scene that came out of `read_scene` is valid, complete and free of members that its own
+// choices make idle.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace cyanometer {
 
-// ---- Spectra ------------------------------------------------------------------------------------
+// ---- Spectra
+// ------------------------------------------------------------------------------------
 
 /// value (l / at_nm)^exponent at the wavelength l.
 struct PowerLaw {
@@ -38,7 +40,8 @@ struct SampledSpectrum {
 /// A number is the same at every wavelength.
 using Spectrum = std::variant<double, PerWavelength, PowerLaw, SampledSpectrum>;
 
-// ---- Constituents -------------------------------------------------------------------------------
+// ---- Constituents
+// -------------------------------------------------------------------------------
 
 /// exp(-h / scale_height): 1 at the ground.
 struct ExponentialProfile {
@@ -58,8 +61,8 @@ struct QuadraticProfile {
 struct UniformProfile {
   bool operator==(const UniformProfile&) const = default;
 };
-/// Divided by its maximum; linear in log density, linear next to a zero; constant below the first
-/// altitude, 0 above the last. Altitudes strictly ascending.
+/// Divided by its maximum; linear in log density, linear next to a zero; constant below the
+/// first altitude, 0 above the last. Altitudes strictly ascending.
 struct TableProfile {
   std::vector<double> altitude_km;
   std::vector<double> density;
@@ -80,7 +83,8 @@ struct CornetteShanks {
 struct MieSpheres {
   double radius_um = 0.1;        ///< number-median radius
   double geometric_sigma = 1.5;  ///< geometric standard deviation, 1 for one size
-  std::array<double, 2> refractive_index{1.45, 0};  ///< real part; imaginary, positive absorbing
+  std::array<double, 2> refractive_index{1.45,
+                                         0};  ///< real part; imaginary, positive absorbing
   bool operator==(const MieSpheres&) const = default;
 };
 /// Angles 0 to 180, ascending; log-linear in angle; normalised on loading.
@@ -96,8 +100,8 @@ struct ScatteringCoefficient {
   Spectrum scattering_per_km = 0.0;
   bool operator==(const ScatteringCoefficient&) const = default;
 };
-/// Coefficients from the gas itself. `refractive_index` names a gas with dispersion ("air", "co2",
-/// "n2", "h2", "he", "ch4") or is a spectrum, and holds at 101325 Pa and 288.15 K.
+/// Coefficients from the gas itself. `refractive_index` names a gas with dispersion ("air",
+/// "co2", "n2", "h2", "he", "ch4") or is a spectrum, and holds at 101325 Pa and 288.15 K.
 struct Gas {
   std::variant<std::string, Spectrum> refractive_index = std::string("air");
   double pressure_pa = 101325;
@@ -121,14 +125,16 @@ struct ParticleOpticalDepth {
   Spectrum single_scattering_albedo = 1.0;
   bool operator==(const ParticleOpticalDepth&) const = default;
 };
-/// Vertical optical depth at one wavelength; the spectrum and the albedo follow from Mie theory.
+/// Vertical optical depth at one wavelength; the spectrum and the albedo follow from Mie
+/// theory.
 struct MieOpticalDepth {
   double value = 0;
   double at_nm = 550;
   bool operator==(const MieOpticalDepth&) const = default;
 };
-/// Extinction 3.912 / visibility at 550 nm where the profile is 1: with Mie spheres the spectrum
-/// follows from Mie theory, with any other phase it is the same at every wavelength (as of fog).
+/// Extinction 3.912 / visibility at 550 nm where the profile is 1: with Mie spheres the
+/// spectrum follows from Mie theory, with any other phase it is the same at every wavelength
+/// (as of fog).
 struct Visibility {
   double visibility_km = 20;
   Spectrum single_scattering_albedo = 1.0;
@@ -160,7 +166,8 @@ struct Constituent {
   bool operator==(const Constituent&) const = default;
 };
 
-// ---- The parts of a scene -----------------------------------------------------------------------
+// ---- The parts of a scene
+// -----------------------------------------------------------------------
 
 /// The same albedo everywhere.
 struct UniformSurface {

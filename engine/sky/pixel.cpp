@@ -11,7 +11,8 @@ constexpr double pi = std::numbers::pi;
 
 /// Coordinates right, up, forward of a direction.
 glm::dvec3 camera_frame(const P& p, const glm::dvec3& d) {
-  return {glm::dot(glm::dvec3(p.scene.camera_right), d), glm::dot(glm::dvec3(p.scene.camera_up), d),
+  return {glm::dot(glm::dvec3(p.scene.camera_right), d),
+          glm::dot(glm::dvec3(p.scene.camera_up), d),
           glm::dot(glm::dvec3(p.scene.camera_forward), d)};
 }
 
@@ -63,11 +64,16 @@ std::optional<int> cubemap_pixel(const P& p, const glm::dvec3& v) {
 std::optional<int> pixel_of(const P& camera, const glm::dvec3& direction) {
   glm::dvec3 v = camera_frame(camera, direction);
   switch (camera.PROJECTION) {
-    case P::PROJECTION_PERSPECTIVE: return perspective_pixel(camera, v);
-    case P::PROJECTION_FISHEYE: return fisheye_pixel(camera, v);
-    case P::PROJECTION_EQUIRECTANGULAR: return equirectangular_pixel(camera, v);
-    case P::PROJECTION_CUBEMAP: return cubemap_pixel(camera, v);
-    default: return {};
+    case P::PROJECTION_PERSPECTIVE:
+      return perspective_pixel(camera, v);
+    case P::PROJECTION_FISHEYE:
+      return fisheye_pixel(camera, v);
+    case P::PROJECTION_EQUIRECTANGULAR:
+      return equirectangular_pixel(camera, v);
+    case P::PROJECTION_CUBEMAP:
+      return cubemap_pixel(camera, v);
+    default:
+      return {};
   }
 }
 

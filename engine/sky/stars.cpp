@@ -11,11 +11,14 @@
 namespace cyanometer {
 namespace {
 
-constexpr double sun_magnitude = -26.74;      // [Willmer 2018, V band]
-constexpr double sun_temperature_k = 5772;    // [IAU 2015 resolution B3]
+constexpr double sun_magnitude = -26.74;    // [Willmer 2018, V band]
+constexpr double sun_temperature_k = 5772;  // [IAU 2015 resolution B3]
 
-/// Of a uniform double in [0, 1), the same on every platform (distributions of <random> are not).
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+/// Of a uniform double in [0, 1), the same on every platform (distributions of <random> are
+/// not).
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
 
 /// Planck's law relative to 550 nm.
 double planck_ratio(double wavelength_nm, double kelvin) {
@@ -26,8 +29,8 @@ double planck_ratio(double wavelength_nm, double kelvin) {
 }
 
 std::vector<Star> make_catalogue() {
-  // Counts of the naked-eye sky: log10 N(brighter than m) = 0.6 + 0.51 m, a few at 0, some 8,000
-  // at 6.5 [after Allen's Astrophysical Quantities, section 19.10].
+  // Counts of the naked-eye sky: log10 N(brighter than m) = 0.6 + 0.51 m, a few at 0, some
+  // 8,000 at 6.5 [after Allen's Astrophysical Quantities, section 19.10].
   constexpr int count = 8200;
   std::mt19937_64 random(1789);
   std::vector<Star> stars;

@@ -6,10 +6,10 @@
 // the air, and one row of the output matrix is applied for each plane.
 layout(std430, binding = 8) restrict readonly buffer TileBuffer { Vec4 tile[]; };
 layout(std430, binding = 9) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
-layout(std430, binding = 10) restrict writeonly buffer Plane0 { Real plane0[]; };
-layout(std430, binding = 11) restrict writeonly buffer Plane1 { Real plane1[]; };
-layout(std430, binding = 12) restrict writeonly buffer Plane2 { Real plane2[]; };
-layout(std430, binding = 13) restrict writeonly buffer Plane3 { Real plane3[]; };
+layout(std430, binding = 10) restrict buffer Plane0 { Real plane0[]; };
+layout(std430, binding = 11) restrict buffer Plane1 { Real plane1[]; };
+layout(std430, binding = 12) restrict buffer Plane2 { Real plane2[]; };
+layout(std430, binding = 13) restrict buffer Plane3 { Real plane3[]; };
 
 layout(push_constant) uniform Push {
   Vec4 inscatter;      // weight of each quantity in the four planes
@@ -19,6 +19,7 @@ layout(push_constant) uniform Push {
   int first_ray;
   int rays_in_tile;
   int first_row;       // of the matrix
+  int accumulate;      // add to what other wavelengths left
   int mark_outside;    // plane 3 is -1 where the ray meets neither air nor ground
 } push;
 
@@ -44,8 +45,9 @@ void main() {
       value[k] += dot(matrix[(push.first_row + k) * GROUPS + g], light);
     }
   }
-  if (push.mark_outside != 0 && !(pixel.inside && meets_planet(path))) value.w = -1.0;
   int at = push.first_ray + i;
+  if (push.accumulate != 0) value += Vec4(plane0[at], plane1[at], plane2[at], plane3[at]);
+  if (push.mark_outside != 0 && !(pixel.inside && meets_planet(path))) value.w = -1.0;
   plane0[at] = value.x;
   plane1[at] = value.y;
   plane2[at] = value.z;

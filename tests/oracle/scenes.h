@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <glm/glm.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,0 +1,108 @@
+#include "server/commands/command.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/document.h"
+
+namespace cyanometer {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void say(const std::string& message) { std::cerr << "cyanometer: " << message << "\n"; }
+
+int refuse(const SceneError& error) {
+  say("the scene is refused: " + std::string(error.what()));
+  if (!error.pointer.empty()) std::cerr << "  at       " << error.pointer << "\n";
+  if (!error.given.empty()) std::cerr << "  given    " << error.given << "\n";
+  if (!error.allowed.empty()) std::cerr << "  allowed  " << error.allowed << "\n";
+  return exit_refused;
+}
+
+/// Parse errors are the caller's mistakes; --help and --version are none.
+int report(const CLI::App& app, const CLI::ParseError& error) {
+  return app.exit(error) == 0 ? exit_done : exit_refused;
+}
+
+}  // namespace
+
+int run_command(int count, char** arguments) {
+  CLI::App app{"Skies and planets: atmospheric scattering over HTTP and on the command line."};
+  app.name("cyanometer");
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 failed, 2 command line or scene refused, 130 cancelled.");
+  for (const auto add : {add_serve, add_render, add_radiance, add_plan, add_devices, add_health,
+                         add_contact_sheet, add_schema}) {
+    add(app);
+  }
+  try {
+    app.parse(count, arguments);
+    return exit_done;
+  } catch (const CLI::ParseError& error) {
+    return report(app, error);
+  } catch (const SceneError& error) {
+    return refuse(error);
+  } catch (const OverLimit& limit) {
+    say("over a limit at " + limit.pointer + ": " + limit.what());
+    return exit_refused;
+  } catch (const CommandError& error) {
+    say(error.what());
+    return error.code;
+  } catch (const Cancelled&) {
+    say("cancelled");
+    return exit_cancelled;
+  } catch (const std::exception& error) {
+    say(error.what());
+    return exit_failed;
+  }
+}
+
+nlohmann::json read_document(const std::string& path) {
+  std::ifstream file;
+  if (path != "-") {
+    file.open(path, std::ios::binary);
+    if (!file) throw CommandError(exit_failed, "cannot read " + path);
+  }
+  std::istream& in = path == "-" ? std::cin : file;
+  return parse_json(std::string(std::istreambuf_iterator<char>(in), {}));
+}
+
+void write_file(const std::string& path, const std::string& bytes) {
+  std::ofstream file;
+  if (path != "-") file.open(path, std::ios::binary);
+  std::ostream& out = path == "-" ? std::cout : file;
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.flush();
+  if (!out) throw CommandError(exit_failed, "cannot write " + path);
+}
+
+Watch command_watch() {
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  Watch watch;
+  watch.gone = [] { return interrupted != 0; };
+  if (isatty(STDERR_FILENO)) {
+    watch.progress = [](double share) {
+      constexpr int width = 40;
+      const int filled = static_cast<int>(share * width);
+      const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                              std::string(static_cast<std::size_t>(width - filled), '.');
+      std::fprintf(stderr, "\r[%s] %3.0f %%", bar.c_str(), share * 100);
+    };
+  }
+  return watch;
+}
+
+void end_progress() {
+  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,51 @@
+// The command line: one file a command, one line each in the table of command.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "engine/engine.h"
+
+namespace cyanometer {
+
+/// What a command ends with, as its --help says.
+enum Exit : int {
+  exit_done = 0,
+  exit_failed = 1,       ///< something went wrong: no device, no file, no answer
+  exit_refused = 2,      ///< the command line or the scene is not valid
+  exit_cancelled = 130,  ///< by SIGINT, as shells count it
+};
+
+/// Ends the command with this message on standard error.
+struct CommandError : std::runtime_error {
+  CommandError(Exit code_, const std::string& message)
+      : std::runtime_error(message), code(code_) {}
+  Exit code;
+};
+
+/// Parses the command line, runs the command, and says on standard error what went wrong.
+int run_command(int count, char** arguments);
+
+/// The JSON document in a file; "-" is standard input. @throws CommandError, SceneError
+nlohmann::json read_document(const std::string& path);
+
+/// Writes all bytes; "-" is standard output. @throws CommandError
+void write_file(const std::string& path, const std::string& bytes);
+
+/// A watch that SIGINT cancels and that shows a bar on a terminal.
+Watch command_watch();
+/// Removes the bar.
+void end_progress();
+
+void add_serve(CLI::App& app);
+void add_render(CLI::App& app);
+void add_radiance(CLI::App& app);
+void add_plan(CLI::App& app);
+void add_devices(CLI::App& app);
+void add_health(CLI::App& app);
+void add_contact_sheet(CLI::App& app);
+void add_schema(CLI::App& app);
+
+}  // namespace cyanometer

@@ -1,0 +1,113 @@
+// cyanometer contact-sheet: all presets as one picture.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/image/encode.h"
+#include "engine/scene/document.h"
+#include "server/commands/command.h"
+#include "server/commands/font.h"
+
+namespace cyanometer {
+namespace {
+
+struct Arguments {
+  std::string output, device;
+  int width = 1600, columns = 5;
+};
+
+/// Pixels of the sheet, four bytes each.
+struct Sheet {
+  int width, height;
+  std::vector<unsigned char> rgbx;
+
+  Sheet(int width_, int height_)
+      : width(width_), height(height_), rgbx(std::size_t(width_) * height_ * 4, 24) {}
+  unsigned char* at(int x, int y) { return &rgbx[(std::size_t(y) * width + x) * 4]; }
+  void paste(const Frame& frame, int x, int y) {
+    for (int row = 0; row < frame.height; ++row) {
+      std::copy_n(frame.rgbx + std::size_t(row) * frame.width * 4, std::size_t(frame.width) * 4,
+                  at(x, y + row));
+    }
+  }
+  void write(const std::string& text, int x, int y, int right) {
+    for (const char c : text) {
+      if (x + font_width > right) return;
+      for (int row = 0; row < font_height; ++row) {
+        for (int column = 0; column < font_width; ++column) {
+          if (font_pixel(c, column, row)) std::fill_n(at(x + column, y + row), 3, 220);
+        }
+      }
+      x += font_width + 1;
+    }
+  }
+};
+
+constexpr int gap = 8;
+constexpr int label = font_height + gap;
+
+/// The preset's picture in the shape it asks for, as large as fits the cell.
+Scene thumbnail(const Preset& preset, int cell_width, int cell_height) {
+  const Image full = read_scene({{"preset", preset.name}}).image;
+  const double scale =
+      std::min(double(cell_width) / full.width, double(cell_height) / full.height);
+  int width = std::max(2, static_cast<int>(std::lround(full.width * scale)));
+  int height = std::max(1, static_cast<int>(std::lround(full.height * scale)));
+  if (full.width == 2 * full.height) {
+    height = width / 2;
+    width = 2 * height;
+  } else if (full.height == 6 * full.width) {
+    height = 6 * width;
+  }
+  return read_scene({{"preset", preset.name},
+                     {"image", {{"width", width}, {"height", height}, {"format", "png"}}}});
+}
+
+void contact_sheet(const Arguments& arguments) {
+  const int cell = (arguments.width - gap) / arguments.columns - gap;
+  const int cell_height = cell * 9 / 16;
+  const int count = static_cast<int>(presets().size());
+  const int rows = (count + arguments.columns - 1) / arguments.columns;
+  const int pitch = cell_height + label + gap;
+  Sheet sheet(arguments.width, rows * pitch + gap);
+  const Watch watch = command_watch();
+  Engine engine({.device = arguments.device});
+  for (int i = 0; i < count; ++i) {
+    const Preset& preset = presets()[static_cast<std::size_t>(i)];
+    const int x = gap + i % arguments.columns * (cell + gap);
+    const int y = gap + i / arguments.columns * pitch;
+    const Frame frame = engine.render(thumbnail(preset, cell, cell_height), watch);
+    sheet.paste(frame, x + (cell - frame.width) / 2, y + (cell_height - frame.height) / 2);
+    sheet.write(preset.name, x, y + cell_height + gap / 2, x + cell);
+  }
+  end_progress();
+  Frame whole;
+  whole.width = sheet.width;
+  whole.height = sheet.height;
+  whole.rgbx = sheet.rgbx.data();
+  whole.description = nlohmann::json{{"version", version()}}.dump();
+  Scene as_png;
+  as_png.image.width = sheet.width;
+  as_png.image.height = sheet.height;
+  write_file(arguments.output, encode(whole, as_png));
+}
+
+}  // namespace
+
+void add_contact_sheet(CLI::App& app) {
+  auto* command = app.add_subcommand("contact-sheet", "Render all presets as one picture");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("-o,--output", arguments->output, "PNG file")->required();
+  command->add_option("--width", arguments->width, "Pixels of the whole")
+      ->check(CLI::Range(200, 16384))
+      ->capture_default_str();
+  command->add_option("--columns", arguments->columns, "Pictures in a row")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
+  command->footer("Example: cyanometer contact-sheet -o presets.png --width 1600");
+  command->callback([arguments] { contact_sheet(*arguments); });
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,64 @@
+// One client's connection: whole requests in, answers out, each within a byte budget and a
+// deadline.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "server/http/message.h"
+
+namespace cyanometer {
+
+struct ConnectionLimits {
+  using Duration = std::chrono::milliseconds;
+  std::size_t request_line_bytes = 8192;
+  std::size_t head_bytes = 32768;
+  std::size_t body_bytes = std::size_t{4} << 20;
+  int requests = 10000;                       ///< on one connection
+  Duration idle = std::chrono::seconds(75);   ///< between requests
+  Duration head = std::chrono::seconds(10);   ///< from a head's first byte to its last
+  Duration body = std::chrono::seconds(30);   ///< for a whole body
+  Duration write = std::chrono::seconds(20);  ///< without a byte taken by the client
+};
+
+/// A request as it came in, and whether the connection must end with its answer.
+struct Received {
+  Request request;
+  bool close = false;
+};
+
+/// Does not own the socket.
+class Connection {
+ public:
+  /// `wake` becomes readable when the server stops: idle connections then end at once.
+  Connection(int socket, int wake, const ConnectionLimits& limits);
+
+  /// True when a request's first byte is there; false when the client left, `idle` went by, or
+  /// the server stops.
+  bool wait(std::chrono::milliseconds idle) const;
+  /// The next request, whole; none when the client left in the middle of it.
+  /// @throws Problem; the connection must then be closed, its place in the stream is unknown
+  std::optional<Received> read();
+  /// False when the client did not take it all.
+  bool write(std::string_view bytes) const;
+  bool gone() const;
+  /// Sends what is written and lets the client read it: closing a socket with unread input
+  /// would reset the connection and lose the answer.
+  void close_gently();
+
+  const std::string& peer() const { return peer_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool fill(Clock::time_point deadline);
+  std::optional<std::string> read_head();
+
+  int socket_;
+  int wake_;
+  const ConnectionLimits& limits_;
+  std::string peer_;
+  std::string buffer_;  ///< received and not yet part of a request
+};
+
+}  // namespace cyanometer

@@ -1,0 +1,132 @@
+#include "server/http/http_server.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <stdexcept>
+
+#include "server/http/thread_pool.h"
+
+namespace cyanometer {
+namespace {
+
+std::pair<std::string, int> split_address(const std::string& address) {
+  const auto colon = address.rfind(':');
+  int port = -1;
+  if (colon != std::string::npos) {
+    const char* end = address.data() + address.size();
+    if (std::from_chars(address.data() + colon + 1, end, port).ptr != end) port = -1;
+  }
+  if (port < 0 || port > 65535) {
+    throw std::runtime_error("'" + address + "' is not an address such as 127.0.0.1:8080");
+  }
+  std::string host = address.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  return {host.empty() ? "0.0.0.0" : host, port};
+}
+
+int bound_port(int socket) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.ss_family == AF_INET6
+                   ? reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port
+                   : reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
+}
+
+/// Without SO_REUSEPORT: a second daemon on the same port must fail, not share it.
+void set_options(socket_t socket) {
+  const int on = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+}
+
+}  // namespace
+
+HttpServer::HttpServer(Options options, Handlers handlers)
+    : options_(options), handlers_(std::move(handlers)), wake_(eventfd(0, EFD_CLOEXEC)) {
+  set_socket_options(set_options);
+  set_tcp_nodelay(true);
+  new_task_queue = [this] { return new ThreadPool(options_.connections); };
+}
+
+HttpServer::~HttpServer() { ::close(wake_); }
+
+void HttpServer::bind(const std::string& address) {
+  const auto [host, port] = split_address(address);
+  const bool bound = port == 0 ? bind_to_any_port(host) > 0 : bind_to_port(host, port);
+  constexpr int backlog = 1024;  // the library's is 5: a burst of clients would be dropped
+  if (!bound || ::listen(svr_sock_, backlog) != 0) {
+    throw std::runtime_error("cannot listen on " + address +
+                             " (in use, or not this machine's)");
+  }
+  port_ = bound_port(svr_sock_);
+}
+
+bool HttpServer::run() { return listen_after_bind() || stopping_; }
+
+void HttpServer::stop() {
+  if (stopping_.exchange(true)) return;
+  eventfd_write(wake_, 1);
+  // The library's own stop() is lost before it listens; a socket that is shut down never
+  // accepts.
+  const int listener = svr_sock_;
+  if (listener >= 0) ::shutdown(listener, SHUT_RDWR);
+}
+
+bool HttpServer::process_and_close_socket(socket_t socket) {
+  const int on = 1;
+  setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  Connection connection(socket, wake_, options_.limits);
+  if (ThreadPool::overloaded()) {
+    Problem problem(503, "Too many connections.");
+    problem.retry_after_s = 1;
+    refuse(connection, problem);
+  } else {
+    ++connections_;
+    serve(connection);
+    --connections_;
+  }
+  ::close(socket);
+  return true;
+}
+
+void HttpServer::serve(Connection& connection) {
+  for (int left = options_.limits.requests; left > 0; --left) {
+    if (!wait_for_request(connection, left == options_.limits.requests)) return;
+    if (!serve_one(connection, left == 1)) break;
+  }
+  connection.close_gently();
+}
+
+bool HttpServer::serve_one(Connection& connection, bool last) {
+  try {
+    const auto received = connection.read();
+    if (!received) return false;
+    const Answer answer = handlers_.answer(received->request);
+    const bool close = received->close || last || stopping_;
+    return connection.write(serialise(answer, received->request.method == "HEAD", close)) &&
+           !close;
+  } catch (const Problem& problem) {
+    refuse(connection, problem);
+    return false;
+  }
+}
+
+bool HttpServer::wait_for_request(const Connection& connection, bool first) const {
+  // Where most threads are taken, those that only wait are the ones to give up.
+  const bool crowded = connections_ * 4 > static_cast<int>(options_.connections) * 3;
+  const auto idle = first ? options_.limits.head : options_.limits.idle;
+  return connection.wait(
+      crowded ? std::min<ConnectionLimits::Duration>(idle, std::chrono::milliseconds(500))
+              : idle);
+}
+
+void HttpServer::refuse(Connection& connection, const Problem& problem) const {
+  connection.write(serialise(handlers_.refuse(problem, connection.peer()), false, true));
+}
+
+}  // namespace cyanometer

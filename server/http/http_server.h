@@ -1,0 +1,60 @@
+// The guarded listener: cpp-httplib accepts connections, everything read from them is read
+// here.
+#pragma once
+
+#include <httplib.h>
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "server/http/connection.h"
+#include "server/http/message.h"
+#include "server/http/problem.h"
+
+namespace cyanometer {
+
+class HttpServer : private httplib::Server {
+ public:
+  struct Options {
+    ConnectionLimits limits;
+    std::size_t connections = 512;  ///< at once, each with a thread; more are refused with 503
+  };
+  struct Handlers {
+    /// Must not throw.
+    std::function<Answer(const Request&)> answer;
+    /// The answer to what could not be read as a request.
+    std::function<Answer(const Problem&, const std::string& peer)> refuse;
+  };
+
+  HttpServer(Options options, Handlers handlers);
+  ~HttpServer() override;
+
+  /// Binds to "host:port", "[v6]:port" or ":port"; port 0 takes any free one.
+  /// @throws std::runtime_error
+  void bind(const std::string& address);
+  int port() const { return port_; }
+  /// Accepts until stop(), then finishes what is in flight. False when accepting failed.
+  bool run();
+  /// From any thread, before, during or after run().
+  void stop();
+
+  int connections() const { return connections_; }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override;
+  void serve(Connection& connection);
+  /// True when one more request may be waited for.
+  bool serve_one(Connection& connection, bool last);
+  bool wait_for_request(const Connection& connection, bool first) const;
+  void refuse(Connection& connection, const Problem& problem) const;
+
+  Options options_;
+  Handlers handlers_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<int> connections_{0};
+  int wake_ = -1;  ///< eventfd, readable once stopping
+  int port_ = 0;
+};
+
+}  // namespace cyanometer

@@ -1,0 +1,55 @@
+#include "server/http/thread_pool.h"
+
+#include <utility>
+
+namespace cyanometer {
+namespace {
+
+thread_local bool overloaded_here = false;
+
+}  // namespace
+
+bool ThreadPool::overloaded() { return overloaded_here; }
+
+void ThreadPool::enqueue(std::function<void()> task) {
+  std::unique_lock lock(mutex_);
+  if (tasks_.size() < idle_) {
+    tasks_.push_back(std::move(task));
+    wake_.notify_one();
+  } else if (threads_.size() < most_threads_) {
+    tasks_.push_back(std::move(task));
+    threads_.emplace_back([this] { work(); });
+  } else {
+    lock.unlock();
+    overloaded_here = true;
+    task();
+    overloaded_here = false;
+  }
+}
+
+void ThreadPool::shutdown() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  for (auto& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void ThreadPool::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    ++idle_;
+    wake_.wait(lock, [&] { return stopping_ || !tasks_.empty(); });
+    --idle_;
+    if (tasks_.empty()) return;
+    const auto task = std::exchange(tasks_.front(), nullptr);
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+}  // namespace cyanometer

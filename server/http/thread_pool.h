@@ -1,0 +1,39 @@
+// Threads that wait for clients: cheap, many, started when they are first needed.
+#pragma once
+
+#include <httplib.h>
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace cyanometer {
+
+/// One task, one thread, so that no connection waits behind another that is idle. Beyond
+/// `most_threads` a task runs on the caller with `overloaded()` true: it must refuse and
+/// return.
+class ThreadPool : public httplib::TaskQueue {
+ public:
+  explicit ThreadPool(std::size_t most_threads) : most_threads_(most_threads) {}
+  void enqueue(std::function<void()> task) override;
+  /// Returns when every task has ended.
+  void shutdown() override;
+
+  static bool overloaded();
+
+ private:
+  void work();
+
+  std::size_t most_threads_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  std::vector<std::thread> threads_;
+  std::size_t idle_ = 0;
+  bool stopping_ = false;
+};
+
+}  // namespace cyanometer

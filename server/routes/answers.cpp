@@ -1,0 +1,127 @@
+#include "server/routes/answers.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/document.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& pointer, const json& given,
+                         const std::string& allowed, const std::string& what) {
+  std::string text = given.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (text.size() > 80) text = text.substr(0, 77) + "...";
+  throw SceneError(pointer, text, allowed, what);
+}
+
+/// RFC 6901: a name as part of a pointer.
+std::string escaped(const std::string& name) {
+  std::string out;
+  for (const char c : name) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return out;
+}
+
+void check_members(const json& object, const std::string& pointer,
+                   const std::vector<std::string>& known) {
+  std::string allowed;
+  for (const auto& name : known) allowed += (allowed.empty() ? "" : ", ") + name;
+  if (!object.is_object())
+    refuse(pointer, object, "an object with " + allowed, "not an object");
+  for (const auto& [name, value] : object.items()) {
+    if (std::ranges::find(known, name) == known.end()) {
+      refuse(pointer + "/" + escaped(name), value, allowed, "there is no such member");
+    }
+  }
+}
+
+double read_angle(const json& direction, const std::string& pointer, const std::string& name,
+                  double limit) {
+  const std::string allowed = "a number from " + std::to_string(static_cast<int>(-limit)) +
+                              " to " + std::to_string(static_cast<int>(limit));
+  const auto found = direction.find(name);
+  if (found == direction.end()) {
+    throw SceneError(pointer + "/" + name, "", allowed, "a direction needs " + name);
+  }
+  if (!found->is_number()) refuse(pointer + "/" + name, *found, allowed, "not a number");
+  const double value = found->get<double>();
+  if (!(std::abs(value) <= limit)) {
+    refuse(pointer + "/" + name, *found, allowed, "out of range");
+  }
+  return value;
+}
+
+std::vector<Direction> read_directions(const json& document) {
+  const std::string pointer = "/directions";
+  const std::string allowed =
+      "a list of 1 to " + std::to_string(most_directions) + " directions";
+  const auto found = document.find("directions");
+  if (found == document.end()) throw SceneError(pointer, "", allowed, "directions are missing");
+  if (!found->is_array() || found->empty()) refuse(pointer, *found, allowed, "not such a list");
+  if (found->size() > most_directions) {
+    throw OverLimit(pointer, std::to_string(found->size()) + " directions are more than " +
+                                 std::to_string(most_directions));
+  }
+  std::vector<Direction> out;
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    const auto& each = (*found)[i];
+    const std::string at = pointer + "/" + std::to_string(i);
+    check_members(each, at, {"elevation_deg", "azimuth_deg"});
+    out.push_back(
+        {read_angle(each, at, "elevation_deg", 90), read_angle(each, at, "azimuth_deg", 360)});
+  }
+  return out;
+}
+
+}  // namespace
+
+json plan_document(const Scene& scene, const Plan& plan) {
+  return {{"scene", canonical(scene)},
+          {"method", plan.method},
+          {"options", plan.options},
+          {"wavelengths_nm", plan.wavelengths_nm},
+          {"error", plan.expected_error},
+          {"ms", plan.expected_ms},
+          {"met", plan.met},
+          {"why", plan.why},
+          {"atmosphere", atmosphere_key(scene)}};
+}
+
+RadianceRequest read_radiance_request(const json& document) {
+  check_members(document, "", {"scene", "directions", "irradiance"});
+  RadianceRequest out;
+  try {
+    out.scene = read_scene(document.value("scene", json::object()));
+  } catch (const SceneError& error) {
+    throw SceneError("/scene" + error.pointer, error.given, error.allowed, error.what());
+  }
+  out.directions = read_directions(document);
+  const auto irradiance = document.find("irradiance");
+  if (irradiance != document.end()) {
+    if (!irradiance->is_boolean()) {
+      refuse("/irradiance", *irradiance, "true or false", "not a boolean");
+    }
+    out.irradiance = irradiance->get<bool>();
+  }
+  return out;
+}
+
+json radiance_document(const Radiances& radiances) {
+  json out{{"wavelengths_nm", radiances.wavelengths_nm},
+           {"radiance", radiances.radiance},
+           {"standard_error", nullptr},
+           {"transmittance", radiances.transmittance},
+           {"method", radiances.plan.method},
+           {"error", radiances.plan.expected_error}};
+  if (radiances.standard_error) out["standard_error"] = *radiances.standard_error;
+  if (const auto& flux = radiances.irradiance) {
+    out["irradiance"] = {{"direct", flux->direct},
+                         {"diffuse_down", flux->diffuse_down},
+                         {"diffuse_up", flux->diffuse_up}};
+  }
+  return out;
+}
+
+}  // namespace cyanometer

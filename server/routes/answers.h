@@ -1,0 +1,27 @@
+// The documents that HTTP and the command line answer alike.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "engine/engine.h"
+
+namespace cyanometer {
+
+/// The answer of /v1/plan.
+nlohmann::json plan_document(const Scene& scene, const Plan& plan);
+
+/// The body of /v1/radiance, read.
+struct RadianceRequest {
+  Scene scene;
+  std::vector<Direction> directions;
+  bool irradiance = false;
+};
+constexpr std::size_t most_directions = 4096;
+/// @throws SceneError with pointers into the body, OverLimit for too many directions
+RadianceRequest read_radiance_request(const nlohmann::json& document);
+
+/// The answer of /v1/radiance.
+nlohmann::json radiance_document(const Radiances& radiances);
+
+}  // namespace cyanometer

@@ -1,0 +1,79 @@
+// POST /v1/radiance: numbers for directions.
+#include <nlohmann/json.hpp>
+
+#include "engine/scene/document.h"
+#include "server/routes/answers.h"
+#include "server/routes/json_answer.h"
+#include "server/routes/openapi.h"
+#include "server/routes/route.h"
+#include "server/routes/scene_request.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+
+Answer radiance(const Request& request, Service& service) {
+  const Watch watch = service.watch(request);
+  const auto asked = read_radiance_request(body_document(request));
+  try {
+    check_wavelengths(asked.scene, service.config);
+    Radiances radiances;
+    service.queue.run(
+        {.client = request.peer, .watch = watch, .work = [&](Engine& engine, const Watch& w) {
+           radiances = engine.radiance(asked.scene, asked.directions, asked.irradiance, w);
+         }});
+    return json_answer(radiance_document(radiances));
+  } catch (const OverLimit& limit) {
+    throw OverLimit("/scene" + limit.pointer, limit.what());
+  }
+}
+
+json operation() {
+  const auto angle = [](double limit) {
+    return json{{"type", "number"}, {"minimum", -limit}, {"maximum", limit}};
+  };
+  const json list{{"type", "array"}, {"items", {{"type", "number"}}}};
+  const json table{{"type", "array"}, {"items", list}};
+  const json direction{
+      {"type", "object"},
+      {"required", {"elevation_deg", "azimuth_deg"}},
+      {"properties", {{"elevation_deg", angle(90)}, {"azimuth_deg", angle(360)}}},
+      {"additionalProperties", false}};
+  const json body{{"type", "object"},
+                  {"required", {"directions"}},
+                  {"properties",
+                   {{"scene", openapi::scene_schema_reference()},
+                    {"directions",
+                     {{"type", "array"},
+                      {"minItems", 1},
+                      {"maxItems", most_directions},
+                      {"items", direction}}},
+                    {"irradiance", {{"type", "boolean"}, {"default", false}}}}},
+                  {"additionalProperties", false}};
+  json maybe_table = table;
+  maybe_table["type"] = {"array", "null"};
+  const json answer{
+      {"type", "object"},
+      {"properties",
+       {{"wavelengths_nm", list},
+        {"radiance", table},
+        {"standard_error", maybe_table},
+        {"transmittance", table},
+        {"method", {{"type", "string"}}},
+        {"error", {{"type", "number"}}},
+        {"irradiance",
+         {{"type", "object"},
+          {"properties", {{"direct", list}, {"diffuse_down", list}, {"diffuse_up", list}}}}}}}};
+  return {{"requestBody", openapi::json_body(body)},
+          {"responses", openapi::responses(openapi::json_content(answer),
+                                           {400, 408, 411, 413, 415, 422, 503, 504})}};
+}
+
+}  // namespace
+
+Route radiance_post() {
+  return {"POST", "/v1/radiance", "Spectral radiance in directions", operation, radiance};
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,30 @@
+// What every route may use.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "server/config.h"
+#include "server/http/message.h"
+#include "server/metrics.h"
+#include "server/queue/plans.h"
+#include "server/queue/render_queue.h"
+
+namespace cyanometer {
+
+struct Service {
+  explicit Service(const Config& config_);
+
+  Config config;
+  Metrics metrics;
+  RenderQueue queue;
+  Plans plans{queue};
+  std::atomic<bool> draining{false};
+  std::function<int()> connections = [] { return 0; };
+
+  bool ready() const { return queue.ready() && !draining; }
+  /// Given up when the request's client leaves or its deadline passes, counted from now.
+  Watch watch(const Request& request) const;
+};
+
+}  // namespace cyanometer
