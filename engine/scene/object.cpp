@@ -62,6 +62,17 @@ void refuse_unknown(const Json& object, const std::vector<std::string>& known, c
                            in_words(known, " and ") + ".");
 }
 
+bool is_plain_name(std::string_view name, std::size_t longest) {
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !name.empty() && name.size() <= longest && is_letter(name.front()) &&
+         std::ranges::all_of(
+             name, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+std::string plain_name_pattern(std::size_t longest) {
+  return "^[a-z][a-z0-9_]{0," + std::to_string(longest - 1) + "}$";
+}
+
 std::vector<std::string> Alternatives::given(const Json& object) const {
   std::vector<std::string> names;
   for (const auto& group : groups)

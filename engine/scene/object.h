@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <type_traits>
 
 #include "engine/scene/spelling.h"
@@ -576,18 +575,24 @@ Spelled<Owner> tagged(std::vector<Case<Owner>> cases, ObjectOf<Owner> common = o
   return std::make_shared<Tagged<Owner>>(std::move(cases), std::move(common), std::move(later));
 }
 
+/// Whether it is one to `longest` of a-z, 0-9 and _, beginning with a letter.
+bool is_plain_name(std::string_view name, std::size_t longest);
+/// The same as a regular expression.
+std::string plain_name_pattern(std::size_t longest);
+
 /// Values under names of the user's choice; null says that there is none of that name.
 template <class T>
 class NamedMap final : public Spelling<std::map<std::string, T>> {
  public:
-  NamedMap(std::string pattern, std::size_t most, Spelled<T> value)
-      : pattern_(std::move(pattern)), regex_(pattern_), most_(most), value_(std::move(value)) {}
+  NamedMap(std::size_t longest_name, std::size_t most, Spelled<T> value)
+      : longest_name_(longest_name), most_(most), value_(std::move(value)) {}
 
   std::map<std::string, T> read(const Json& given, const At& at) const override {
     if (!given.is_object()) refuse(at, given, words());
     std::map<std::string, T> values;
     for (const auto& [name, value] : given.items()) {
-      if (!is_name(name)) refuse(at / name, name, "a name that matches " + pattern_);
+      if (!is_plain_name(name, longest_name_))
+        refuse(at / name, name, "a name that matches " + plain_name_pattern(longest_name_));
       if (!value.is_null()) values.emplace(name, value_->read(value, at / name));
     }
     if (values.size() > most_) refuse(at, values.size(), "at most " + std::to_string(most_));
@@ -603,11 +608,13 @@ class NamedMap final : public Spelling<std::map<std::string, T>> {
     add_alternative(value, {{"type", "null"}});
     value.erase("type");
     return {{"type", "object"},
-            {"patternProperties", {{pattern_, std::move(value)}}},
+            {"patternProperties", {{plain_name_pattern(longest_name_), std::move(value)}}},
             {"additionalProperties", false},
             {"properties", Json::object()}};
   }
-  std::string words() const override { return "an object with members that match " + pattern_; }
+  std::string words() const override {
+    return "an object of at most " + std::to_string(most_) + " members";
+  }
   bool takes(const Json& given) const override { return given.is_object(); }
   Json merged(const Json& inherited, const Json& patch) const override {
     if (!inherited.is_object() || !patch.is_object()) return patch;
@@ -620,20 +627,14 @@ class NamedMap final : public Spelling<std::map<std::string, T>> {
   }
 
  private:
-  /// The length first: a regex takes a long name badly.
-  bool is_name(const std::string& name) const {
-    return name.size() <= 64 && std::regex_match(name, regex_);
-  }
-
-  std::string pattern_;
-  std::regex regex_;
+  std::size_t longest_name_;
   std::size_t most_;
   Spelled<T> value_;
 };
 template <class T>
-Spelled<std::map<std::string, T>> named_map(std::string pattern, std::size_t most,
+Spelled<std::map<std::string, T>> named_map(std::size_t longest_name, std::size_t most,
                                             Spelled<T> value) {
-  return std::make_shared<NamedMap<T>>(std::move(pattern), most, std::move(value));
+  return std::make_shared<NamedMap<T>>(longest_name, most, std::move(value));
 }
 
 }  // namespace cyanometer
