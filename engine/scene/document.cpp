@@ -57,8 +57,8 @@ Json canonical(const Scene& scene) {
   Json document = scene_members().write(scene);
   Json& constituents = document["atmosphere"]["constituents"];
   // The document will be read over the preset that stands where none is named.
-  for (const auto& [name, value] :
-       expanded(Json::object())["atmosphere"]["constituents"].items())
+  const Json base = expanded(Json::object());
+  for (const auto& [name, value] : base["atmosphere"]["constituents"].items())
     if (!constituents.contains(name)) constituents[name] = nullptr;
   return document;
 }

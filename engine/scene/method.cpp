@@ -49,7 +49,7 @@ class Option final : public Entry<MethodChoice> {
     schema["properties"][name_] = std::move(own);
   }
   void merge(Json& inherited, const Json& patch) const override {
-    if (patch.contains(name_)) inherited[name_] = patch[name_];
+    replace_member(inherited, patch, name_);
   }
 
  private:
@@ -66,9 +66,7 @@ class Option final : public Entry<MethodChoice> {
     return value + 0.0;
   }
   static Json described(const MethodOption& option, const Surroundings& around) {
-    Label label;
-    label.title = option.title;
-    label.help = option.description;
+    Label label(option.name, option.title, option.description);
     label.unit = option.unit;
     label.slider = Slider{option.minimum, option.maximum, 1, option.logarithmic};
     if (option.logarithmic) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <type_traits>
 
 #include "engine/scene/spelling.h"
@@ -37,11 +36,14 @@ struct Label {
   std::optional<Slider> slider;
   bool required = false;
 
+  Label(std::string name_, std::string title_, std::string help_);
   void add_to(Json& schema, const std::string& name_of_group) const;
 };
-std::string unit_of(const std::string& name);
 void describe_member(Json& object_schema, const Label& label, Json schema,
                      const Surroundings& around);
+/// The patch's member where it has one.
+void replace_member(Json& inherited, const Json& patch, const std::string& name);
+/// The same, merged with the one inherited where there is one.
 void merge_member(Json& inherited, const Json& patch, const std::string& name,
                   const std::function<Json(const Json&, const Json&)>& merged);
 
@@ -50,12 +52,9 @@ class Member final : public Entry<Owner> {
  public:
   Member(std::string name, T Owner::*field, Spelled<T> spelling, std::string title,
          std::string help)
-      : field_(field), spelling_(std::move(spelling)) {
-    label_.unit = unit_of(name);
-    label_.name = std::move(name);
-    label_.title = std::move(title);
-    label_.help = std::move(help);
-  }
+      : label_(std::move(name), std::move(title), std::move(help)),
+        field_(field),
+        spelling_(std::move(spelling)) {}
 
   Member unit(std::string unit) && { return label_.unit = std::move(unit), std::move(*this); }
   Member group(std::string group) && {
@@ -143,11 +142,9 @@ class Consumed final : public Entry<Owner> {
   using Action = std::function<void(Owner&, const T&, const At&)>;
   Consumed(std::string name, Spelled<T> spelling, std::string title, std::string help,
            Action action = nullptr)
-      : spelling_(std::move(spelling)), action_(std::move(action)) {
-    label_.name = std::move(name);
-    label_.title = std::move(title);
-    label_.help = std::move(help);
-  }
+      : label_(std::move(name), std::move(title), std::move(help)),
+        spelling_(std::move(spelling)),
+        action_(std::move(action)) {}
   std::vector<std::string> names() const override { return {label_.name}; }
   void read(Owner& owner, const Json& object, const At& at) const override {
     const Json* given = given_member(object, label_.name);
@@ -176,10 +173,8 @@ template <class T>
 class Wrapped final : public Entry<T> {
  public:
   Wrapped(std::string name, Spelled<T> spelling, std::string title, std::string help)
-      : spelling_(std::move(spelling)) {
-    label_.name = std::move(name);
-    label_.title = std::move(title);
-    label_.help = std::move(help);
+      : label_(std::move(name), std::move(title), std::move(help)),
+        spelling_(std::move(spelling)) {
     label_.required = true;
   }
   std::vector<std::string> names() const override { return {label_.name}; }
@@ -194,8 +189,8 @@ class Wrapped final : public Entry<T> {
   void describe(Json& schema, const Surroundings& around) const override {
     describe_member(schema, label_, spelling_->schema({around.group, true}), around);
   }
-  void merge(Json& inherited, const Json& patch) const override {  // replaced whole
-    if (patch.contains(label_.name)) inherited[label_.name] = patch[label_.name];
+  void merge(Json& inherited, const Json& patch) const override {
+    replace_member(inherited, patch, label_.name);
   }
   bool takes(const Json& object) const override {
     const Json* given = given_member(object, label_.name);
@@ -212,11 +207,7 @@ template <class Owner>
 class Constant final : public Entry<Owner> {
  public:
   Constant(std::string name, std::string value, std::string title, std::string help)
-      : value_(std::move(value)) {
-    label_.name = std::move(name);
-    label_.title = std::move(title);
-    label_.help = std::move(help);
-  }
+      : label_(std::move(name), std::move(title), std::move(help)), value_(std::move(value)) {}
   std::vector<std::string> names() const override { return {label_.name}; }
   void read(Owner&, const Json& object, const At& at) const override {
     if (const Json* given = given_member(object, label_.name))
@@ -227,7 +218,7 @@ class Constant final : public Entry<Owner> {
     describe_member(schema, label_, {{"const", value_}}, around);
   }
   void merge(Json& inherited, const Json& patch) const override {
-    if (patch.contains(label_.name)) inherited[label_.name] = patch[label_.name];
+    replace_member(inherited, patch, label_.name);
   }
 
  private:
@@ -314,7 +305,9 @@ class Object final : public Spelling<T>, public Entry<T> {
     return schema;
   }
   std::string words() const override {
-    return "an object with any of the members " + in_words(names());
+    const auto known = names();
+    return (known.size() == 1 ? "an object with the member " : "an object with the members ") +
+           in_words(known);
   }
   bool takes(const Json& given) const override {
     if (!given.is_object()) return false;
@@ -582,18 +575,24 @@ Spelled<Owner> tagged(std::vector<Case<Owner>> cases, ObjectOf<Owner> common = o
   return std::make_shared<Tagged<Owner>>(std::move(cases), std::move(common), std::move(later));
 }
 
+/// Whether it is one to `longest` of a-z, 0-9 and _, beginning with a letter.
+bool is_plain_name(std::string_view name, std::size_t longest);
+/// The same as a regular expression.
+std::string plain_name_pattern(std::size_t longest);
+
 /// Values under names of the user's choice; null says that there is none of that name.
 template <class T>
 class NamedMap final : public Spelling<std::map<std::string, T>> {
  public:
-  NamedMap(std::string pattern, std::size_t most, Spelled<T> value)
-      : pattern_(std::move(pattern)), regex_(pattern_), most_(most), value_(std::move(value)) {}
+  NamedMap(std::size_t longest_name, std::size_t most, Spelled<T> value)
+      : longest_name_(longest_name), most_(most), value_(std::move(value)) {}
 
   std::map<std::string, T> read(const Json& given, const At& at) const override {
     if (!given.is_object()) refuse(at, given, words());
     std::map<std::string, T> values;
     for (const auto& [name, value] : given.items()) {
-      if (!is_name(name)) refuse(at / name, name, "under a name that matches " + pattern_);
+      if (!is_plain_name(name, longest_name_))
+        refuse(at / name, name, "a name that matches " + plain_name_pattern(longest_name_));
       if (!value.is_null()) values.emplace(name, value_->read(value, at / name));
     }
     if (values.size() > most_) refuse(at, values.size(), "at most " + std::to_string(most_));
@@ -609,11 +608,13 @@ class NamedMap final : public Spelling<std::map<std::string, T>> {
     add_alternative(value, {{"type", "null"}});
     value.erase("type");
     return {{"type", "object"},
-            {"patternProperties", {{pattern_, std::move(value)}}},
+            {"patternProperties", {{plain_name_pattern(longest_name_), std::move(value)}}},
             {"additionalProperties", false},
             {"properties", Json::object()}};
   }
-  std::string words() const override { return "an object with members that match " + pattern_; }
+  std::string words() const override {
+    return "an object of at most " + std::to_string(most_) + " members";
+  }
   bool takes(const Json& given) const override { return given.is_object(); }
   Json merged(const Json& inherited, const Json& patch) const override {
     if (!inherited.is_object() || !patch.is_object()) return patch;
@@ -626,20 +627,14 @@ class NamedMap final : public Spelling<std::map<std::string, T>> {
   }
 
  private:
-  /// The length first: a regex takes a long name badly.
-  bool is_name(const std::string& name) const {
-    return name.size() <= 64 && std::regex_match(name, regex_);
-  }
-
-  std::string pattern_;
-  std::regex regex_;
+  std::size_t longest_name_;
   std::size_t most_;
   Spelled<T> value_;
 };
 template <class T>
-Spelled<std::map<std::string, T>> named_map(std::string pattern, std::size_t most,
+Spelled<std::map<std::string, T>> named_map(std::size_t longest_name, std::size_t most,
                                             Spelled<T> value) {
-  return std::make_shared<NamedMap<T>>(std::move(pattern), most, std::move(value));
+  return std::make_shared<NamedMap<T>>(longest_name, most, std::move(value));
 }
 
 }  // namespace cyanometer

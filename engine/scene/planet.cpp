@@ -12,7 +12,7 @@ Spelled<Surface> surface() {
 }
 
 Spelled<std::map<std::string, Constituent>> constituents() {
-  return named_map("^[a-z][a-z0-9_]{0,31}$", 32, constituent());
+  return named_map(/*longest_name=*/32, /*most=*/32, constituent());
 }
 
 }  // namespace

@@ -15,22 +15,28 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-/// What is no JSON is a string, which must be UTF-8 like all of a document.
+/// What the link says must be UTF-8, like all of a document.
+void check_utf8(const std::string& text, const std::string& pointer) {
+  try {
+    static_cast<void>(Json(text).dump());
+  } catch (const Json::type_error&) {
+    throw SceneError(pointer, quote(text), "text in UTF-8",
+                     "The link says " + quote(text) + ", which is not UTF-8.");
+  }
+}
+
 Json value_of(const std::string& text, const std::string& pointer) {
   try {
     return parse_json(text);
   } catch (const SceneError&) {
-    try {
-      static_cast<void>(Json(text).dump());
-      return text;
-    } catch (const Json::type_error&) {
-      throw SceneError(pointer, quote(text), "text in UTF-8", pointer + " is not UTF-8.");
-    }
+    check_utf8(text, pointer);
+    return text;
   }
 }
 
 void set(Json& document, const std::string& path, const std::string& value) {
   constexpr std::size_t deepest = 16;
+  check_utf8(path, "");
   const auto parts = parts_of(path);
   if (parts.size() > deepest)
     throw SceneError("", quote(path), "a path of at most " + std::to_string(deepest) + " names",
@@ -46,12 +52,13 @@ void set(Json& document, const std::string& path, const std::string& value) {
       throw SceneError(pointer, quote(*object), "an object",
                        pointer + " is given a value and members.");
     pointer = pointer_to(pointer, parts[i]);
-    if (last && object->contains(parts[i]))
+    const bool there = object->contains(parts[i]);
+    if (last && there)
       throw SceneError(pointer, quote(value), "given once", pointer + " is given twice.");
     Json& member = (*object)[parts[i]];
     if (last)
       member = value_of(value, pointer);
-    else if (member.is_null())
+    else if (!there)
       member = Json::object();
     object = &member;
   }

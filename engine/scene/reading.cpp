@@ -9,6 +9,16 @@ namespace {
 
 constexpr std::size_t longest_quote = 80;
 
+Json canonical_numbers(Json value) {
+  if (value.is_number_float()) {
+    const double number = value.get<double>();
+    return std::isfinite(number) ? canonical_number(number) : Json("not finite");
+  }
+  if (value.is_structured())
+    for (Json& item : value) item = canonical_numbers(item);
+  return value;
+}
+
 std::string place_in_words(const std::string& pointer) {
   return pointer.empty() ? "The document" : pointer;
 }
@@ -16,9 +26,9 @@ std::string place_in_words(const std::string& pointer) {
 }  // namespace
 
 std::string quote(const Json& given) {
-  if (given.is_number_float() && !std::isfinite(given.get<double>())) return "not finite";
   // ASCII, so that it may be cut anywhere.
-  std::string text = given.dump(-1, ' ', true, Json::error_handler_t::replace);
+  std::string text =
+      canonical_numbers(given).dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > longest_quote) text = text.substr(0, longest_quote - 3) + "...";
   return text;
 }

@@ -18,13 +18,11 @@ Json scene_schema() {
   schema["title"] = "Scene";
   schema["description"] =
       "A sky to be rendered. Every member is optional and merged over the preset; null "
-      "restores "
-      "a default, or removes a constituent. x-unit is the unit, x-group the group of controls, "
-      "x-default the default where it follows from other members, x-alternatives lists groups "
-      "of "
-      "members of which only one may be given, and x-slider is a comfortable range: its step "
-      "is "
-      "in powers of ten where the scale is log.";
+      "restores a default, or removes a constituent. x-unit is the unit, x-group the group of "
+      "controls, x-default the default where it follows from other members, x-alternatives "
+      "lists groups of members of which only one may be given, and x-slider is a comfortable "
+      "range: its step is in powers of ten where the scale is log, and for a spectrum it is "
+      "that of a number and of a power law's value.";
   return schema;
 }
 

@@ -51,8 +51,9 @@ Rule<PowerLaw> within(double minimum, double maximum) {
     for (const double nm : computed_nm(at.reading)) {
       const double value = law.value * std::pow(nm / law.at_nm, law.exponent);
       if (!(value >= minimum && value <= maximum))
-        refuse(at, value, number(minimum, maximum)->words(),
-               "that is the power law at " + in_words(nm) + " nm, which is computed");
+        refuse(at, {{"value", law.value}, {"at_nm", law.at_nm}, {"exponent", law.exponent}},
+               number(minimum, maximum)->words() + " at every wavelength that is computed",
+               "it is " + in_words(value) + " at " + in_words(nm) + " nm");
     }
   });
 }
