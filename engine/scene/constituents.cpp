@@ -1,5 +1,6 @@
 // What the air is made of.
 #include "engine/scene/members.h"
+#include "engine/scene/variant_object.h"
 
 namespace cyanometer {
 namespace {
@@ -169,19 +170,19 @@ constexpr auto depth_name = "optical_depth";
 constexpr auto depth_title = "Optical depth";
 constexpr auto depth_help = "Vertical optical depth of extinction, from the ground to the top.";
 
-Spelled<double> depth() { return number(0, 1e4); }
+constexpr double deepest = 1e4;
 
 ObjectOf<MieOpticalDepth> mie_optical_depth() {
   return object<MieOpticalDepth>(
       Wrapped<MieOpticalDepth>(
           depth_name,
           object<MieOpticalDepth>(
-              Member("value", &MieOpticalDepth::value, depth(), "Value",
+              Member("value", &MieOpticalDepth::value, number(0, deepest), "Value",
                      "The optical depth at one wavelength; the others "
                      "follow from Mie theory.")
                   .log_slider(1e-3, 10)
                   .required(),
-              Member("at_nm", &MieOpticalDepth::at_nm, number(10, 5000), "At",
+              Member("at_nm", &MieOpticalDepth::at_nm, wavelength(), "At",
                      "The wavelength at which the optical depth holds.")
                   .slider(380, 780, 1)
                   .required()),
@@ -195,7 +196,7 @@ ObjectOf<Particles> particles() {
           cases<Particles>(&Particles::optics)
               .form(particle_coefficients())
               .form(object<ParticleOpticalDepth>(
-                  Member(depth_name, &ParticleOpticalDepth::optical_depth, spectrum(0, 1e4),
+                  Member(depth_name, &ParticleOpticalDepth::optical_depth, spectrum(0, deepest),
                          depth_title, depth_help)
                       .log_slider(1e-3, 10)
                       .required(),
@@ -214,7 +215,8 @@ ObjectOf<Particles> particles() {
         if (const auto* depth = std::get_if<MieOpticalDepth>(&particles.optics);
             depth && !std::holds_alternative<MieSpheres>(particles.phase))
           refuse(at / std::string_view(depth_name),
-                 {{"value", depth->value}, {"at_nm", depth->at_nm}}, spectrum(0, 1e4)->words(),
+                 {{"value", depth->value}, {"at_nm", depth->at_nm}},
+                 spectrum(0, deepest)->words(),
                  "only with a phase of type mie the rest follows");
       }));
 }

@@ -41,8 +41,9 @@ const Object<Scene>& scene_members() {
 
 Scene read_scene(const Json& document) {
   Json whole = expanded(document);
-  for (const std::string& part :
-       scene_members().names())  // its members' defaults may depend on others
+  // A part that is left out is not the default of its struct: its defaults may follow from
+  // others.
+  for (const std::string& part : scene_members().names())
     if (!given_member(whole, part)) whole[part] = Json::object();
   Reading reading;
   scene_members().read_whole(reading.scene, whole, At{reading, ""});
@@ -57,8 +58,8 @@ Json canonical(const Scene& scene) {
   Json document = scene_members().write(scene);
   Json& constituents = document["atmosphere"]["constituents"];
   // The document will be read over the preset that stands where none is named.
-  const Json base = expanded(Json::object());
-  for (const auto& [name, value] : base["atmosphere"]["constituents"].items())
+  const Json& base = expanded_preset(base_preset)["atmosphere"]["constituents"];
+  for (const auto& [name, value] : base.items())
     if (!constituents.contains(name)) constituents[name] = nullptr;
   return document;
 }

@@ -19,6 +19,9 @@ ObjectOf<Camera> camera_members();
 ObjectOf<MethodChoice> method_members();
 ObjectOf<Image> image_members();
 
+/// A wavelength that may be computed, in nm.
+Spelled<double> wavelength();
+
 /// The forms of a spectrum, with its values within the range at every wavelength that is
 /// computed.
 Spelled<Spectrum> spectrum(double minimum, double maximum);

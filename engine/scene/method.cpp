@@ -110,7 +110,7 @@ ObjectOf<MethodChoice> method_members() {
           .idle_unless(is_auto),
       Member("max_error", &MethodChoice::max_error, optional(number(1e-6, 10)), "Largest error",
              "For auto: the largest error of the frame against the converged solution.")
-          .otherwise("0.02, none where only max_ms is given",
+          .otherwise(in_words(usual_max_error) + ", none where only max_ms is given",
                      [](const MethodChoice& choice, const Reading&) {
                        return choice.max_ms ? std::nullopt : std::optional(usual_max_error);
                      })

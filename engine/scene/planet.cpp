@@ -1,6 +1,8 @@
 // The planet and its air.
 #include "engine/scene/members.h"
+#include "engine/scene/named_map.h"
 #include "engine/scene/presets.h"
+#include "engine/scene/variant_object.h"
 
 namespace cyanometer {
 namespace {
@@ -37,11 +39,12 @@ ObjectOf<Atmosphere> atmosphere_members() {
           .log_slider(1, 1000),
       Member("constituents", &Atmosphere::constituents, constituents(), "Constituents",
              "What the air is made of, each under a name; null removes one.")
-          .otherwise("those of earth", [](const Atmosphere&, const Reading&) {
-            Reading earth;
-            return constituents()->read(expanded_preset("earth")["atmosphere"]["constituents"],
-                                        At{earth, ""});
-          }));
+          .otherwise(
+              "those of " + std::string(base_preset), [](const Atmosphere&, const Reading&) {
+                Reading earth;
+                return constituents()->read(
+                    expanded_preset(base_preset)["atmosphere"]["constituents"], At{earth, ""});
+              }));
 }
 
 }  // namespace cyanometer

@@ -10,7 +10,6 @@
 namespace cyanometer {
 namespace {
 
-constexpr std::string_view base_preset = "earth";
 constexpr std::string_view extension = ".json";
 
 struct Stored {

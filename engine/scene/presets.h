@@ -6,6 +6,9 @@
 
 namespace cyanometer {
 
+/// From which every document starts that names no other.
+inline constexpr std::string_view base_preset = "earth";
+
 /// The preset merged over those that it starts from, down to `earth`; it has no `preset`
 /// itself.
 const nlohmann::json& expanded_preset(std::string_view name);

@@ -1,4 +1,5 @@
 #include "engine/scene/members.h"
+#include "engine/scene/presets.h"
 
 namespace cyanometer {
 
@@ -10,10 +11,10 @@ Json scene_schema() {
     titles.push_back(preset.title);
   }
   schema["properties"]["preset"] = {
-      {"title", "Preset"},  {"description", "The named scene from which this one starts."},
-      {"type", "string"},   {"enum", names},
-      {"x-titles", titles}, {"x-group", "picture"},
-      {"default", "earth"}};
+      {"title", "Preset"},     {"description", "The named scene from which this one starts."},
+      {"type", "string"},      {"enum", names},
+      {"x-titles", titles},    {"x-group", "picture"},
+      {"default", base_preset}};
   schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   schema["title"] = "Scene";
   schema["description"] =

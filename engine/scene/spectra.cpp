@@ -6,8 +6,6 @@
 namespace cyanometer {
 namespace {
 
-Spelled<double> wavelength() { return number(10, 5000); }
-
 class PerWavelengthList final : public Spelling<PerWavelength> {
  public:
   explicit PerWavelengthList(Spelled<double> value) : values_(list(std::move(value), 1, 64)) {}
@@ -94,6 +92,8 @@ ObjectOf<SampledSpectrum> sampled(double minimum, double maximum) {
 }
 
 }  // namespace
+
+Spelled<double> wavelength() { return number(10, 5000); }
 
 Spelled<Spectrum> spectrum(double minimum, double maximum) {
   return one_of<Spectrum, double, PerWavelength, PowerLaw, SampledSpectrum>(
