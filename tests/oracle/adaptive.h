@@ -1,6 +1,6 @@
-// Single scattering by adaptive quadrature in double: the physics of shaders/physics/ with every
-// integral taken to a stated tolerance, the path split where the integrand bends or jumps. It shares
-// the formulas with the device, and none of the sampling.
+// Single scattering by adaptive quadrature in double: the physics of shaders/physics/ with
+// every integral taken to a stated tolerance, the path split where the integrand bends or
+// jumps. It shares the formulas with the device, and none of the sampling.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,7 @@ class Adaptive {
     std::vector<double> pieces = view_pieces();
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       if (!lit(0.5 * (pieces[i] + pieces[i + 1]))) continue;
-      add(ray.inscatter, adapt(pieces[i], pieces[i + 1],
-                               gauss(pieces[i], pieces[i + 1]), 0));
+      add(ray.inscatter, adapt(pieces[i], pieces[i + 1], gauss(pieces[i], pieces[i + 1]), 0));
     }
     Columns columns = column(path.altitude_km, path.mu, path.length_km);
     for (int w = 0; w < lanes(); ++w) ray.transmittance[w] = std::exp(-depth(columns, w));
@@ -71,7 +70,8 @@ class Adaptive {
     return all;
   }
 
-  /// Distances in (0, length) at which a ray passes the altitudes of `bends`, and its lowest point.
+  /// Distances in (0, length) at which a ray passes the altitudes of `bends`, and its lowest
+  /// point.
   std::vector<double> crossings(double h, double mu, double length) {
     double r = p_.scene.planet_radius_km + h, b = r * mu;
     std::vector<double> at{0, length};
@@ -118,8 +118,8 @@ class Adaptive {
                             p_.scene.planet_radius_km * p_.scene.planet_radius_km;
   }
 
-  /// The view ray split where the density bends and at the edges of the planet's shadow: the cylinder
-  /// |x|^2 - (x . sun)^2 = R^2.
+  /// The view ray split where the density bends and at the edges of the planet's shadow: the
+  /// cylinder |x|^2 - (x . sun)^2 = R^2.
   std::vector<double> view_pieces() {
     std::vector<double> at = crossings(path_.altitude_km, path_.mu, path_.length_km);
     double x_sun = glm::dot(path_.start, sun_), v_sun = glm::dot(path_.direction, sun_);

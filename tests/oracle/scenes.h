@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <glm/glm.hpp>
 #include <fstream>
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 
