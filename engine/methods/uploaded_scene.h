@@ -12,7 +12,7 @@ namespace cyanometer {
 
 /// Wavelengths that are traced together. Software drivers take minutes to compile a march that
 /// keeps dozens in registers, and gain nothing from it.
-inline constexpr std::size_t wavelengths_at_once = 8;
+inline constexpr std::size_t wavelengths_at_once = 16;
 
 class UploadedScene {
  public:

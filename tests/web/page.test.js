@@ -1,0 +1,343 @@
+// The page as a person uses it, at a desk and on a phone.
+
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { mkdtemp, readFile, rm } from 'node:fs/promises';
+import os from 'node:os';
+import path from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { promisify } from 'node:util';
+
+import { Daemon, openBrowser, Person, SIZES } from './person.js';
+
+const run = promisify(execFile);
+const PNG = '89504e47';
+const EXR = '762f3101';
+const startOf = (bytes) => bytes.subarray(0, 4).toString('hex');
+
+let daemon;
+let browser;
+before(async () => {
+  daemon = await Daemon.start();
+  browser = await openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await daemon?.stop();
+});
+
+/** A test by somebody who has just arrived; the console must stay silent. */
+function visit(size, sentence, steps, options) {
+  test(`${size}: ${sentence}`, async () => {
+    const person = await Person.arrive(browser, daemon, size, options);
+    try {
+      await steps(person, person.page);
+      assert.deepEqual(person.complaints, []);
+    } finally {
+      await person.leave();
+    }
+  });
+}
+
+for (const size of Object.keys(SIZES)) {
+  describe(size, () => {
+    visit(size, 'the picture fills the window and the controls fold away', async (person, page) => {
+      await person.photograph('adjust');
+      await page.getByRole('button', { name: 'Fold the controls away' }).click();
+      await person.rest();
+      assert.equal(await page.locator('#panel').isVisible(), false);
+      const { width, height } = SIZES[size].viewport;
+      assert.deepEqual(await page.locator('#picture').boundingBox(), { x: 0, y: 0, width, height });
+      await person.photograph('folded');
+      await page.getByRole('button', { name: 'Show the controls' }).click();
+      assert.equal(await page.locator('#panel').isVisible(), true);
+    });
+
+    visit(size, 'every number of the schema has a slider, in a group', async (person, page) => {
+      const schema = await (await fetch(`${daemon.address}v1/schema`)).json();
+      for (const [section, members] of Object.entries(schema.properties)) {
+        for (const [name, member] of Object.entries(members.properties ?? {})) {
+          if (!member['x-slider'] || /^(width|height|.*_samples|seed)$/.test(name)) continue;
+          if (member.type !== 'number' && member.type !== 'integer') continue;
+          const control = person.control(`${section}.${name}`);
+          assert.equal(await control.locator('input[type=range]').count(), 1, `${section}.${name}`);
+          assert.ok(await control.locator('xpath=ancestor::details[@data-group]').count(), name);
+        }
+      }
+      const unit = await person.control('sun.elevation_deg').locator('.unit').textContent();
+      assert.equal(unit, '°');
+    });
+
+    visit(size, 'a number can be typed, and given back', async (person, page) => {
+      const first = await person.look();
+      await person.type('sun.elevation_deg', '4');
+      await person.rest();
+      assert.equal((await person.scene()).sun.elevation_deg, 4);
+      assert.notEqual(await person.look(), first);
+      const control = person.control('sun.elevation_deg');
+      await control.getByRole('button', { name: /Reset/ }).click();
+      await person.rest();
+      assert.equal((await person.scene()).sun, undefined);
+      assert.equal(await person.look(), first);
+      assert.equal(await control.getByRole('button', { name: /Reset/ }).count(), 0);
+    });
+
+    visit(size, 'a logarithmic slider moves by factors', async (person, page) => {
+      const slider = (await person.find('camera.altitude_km')).locator('input[type=range]');
+      const altitudeAt = async (share) => {
+        await slider.evaluate((element, at) => {
+          element.value = at * element.max;
+          element.dispatchEvent(new Event('input'));
+        }, share);
+        return (await person.scene()).camera.altitude_km;
+      };
+      const [low, middle, high] = [await altitudeAt(0.4), await altitudeAt(0.6), await altitudeAt(0.8)];
+      assert.ok(Math.abs(Math.log(high / middle) / Math.log(middle / low) - 1) < 0.05);
+    });
+
+    visit(size, 'help says in words what a control is', async (person, page) => {
+      const control = await person.find('sun.elevation_deg');
+      await control.hover();
+      await control.getByRole('button', { name: /What is/ }).click();
+      assert.ok((await control.locator('.help').innerText()).length > 20);
+    });
+
+    visit(size, 'constituents have cards; they are switched off, added and removed',
+      async (person, page) => {
+        const card = page.locator('.card[data-name=air]');
+        await card.locator('summary').scrollIntoViewIfNeeded();
+        await card.locator('summary .name').click();
+        assert.ok((await card.locator('input[type=range]').count()) >= 2);
+        await person.photograph('card');
+        const first = await person.look();
+        await card.getByRole('switch').first().click();
+        assert.equal((await person.scene()).atmosphere.constituents.air, null);
+        await person.rest();
+        assert.notEqual(await person.look(), first);
+        await page.locator('.card[data-name=air]').getByRole('switch').click();
+        await person.rest();
+        assert.equal(await person.look(), first);
+        await page.getByRole('button', { name: 'Dust', exact: true }).click();
+        await page.locator('.card[data-name=dust]').waitFor();
+        await person.rest();
+        assert.equal((await person.scene()).atmosphere.constituents.dust.type, 'particles');
+        assert.equal(await page.locator('#status').textContent(), '');
+        await page.locator('.card[data-name=dust] summary .name').click();
+        await page.getByRole('button', { name: 'Remove Dust' }).click();
+        assert.equal((await person.scene()).atmosphere, undefined);
+      });
+
+    visit(size, 'presets are thumbnails that the daemon has rendered', async (person, page) => {
+      await person.tab('Skies');
+      await page.waitForFunction(() => document.querySelectorAll('.preset img.there').length >= 3);
+      await page.waitForTimeout(500);
+      await person.photograph('skies');
+      const image = page.locator('.preset img.there').first();
+      assert.deepEqual(await image.evaluate((one) => [one.naturalWidth, one.naturalHeight]), [160, 90]);
+      await page.locator('.preset[data-preset=mars]').click();
+      await person.rest();
+      assert.equal(person.hash(), '#preset=mars');
+      assert.equal(await page.locator('.preset[aria-pressed=true]').getAttribute('data-preset'), 'mars');
+      await person.photograph('mars');
+    });
+
+    visit(size, 'frames follow the hand, small, and sharpen when it rests', async (person, page) => {
+      const seconds = size === 'desktop' ? 10 : 3;
+      const box = await page.locator('#picture').boundingBox();
+      const before = (await person.requests()).started;
+      const y = box.y + box.height * 0.7;
+      await page.mouse.move(box.x + 60, y);
+      await page.mouse.down();
+      const ends = Date.now() + 1000 * seconds;
+      let small = Infinity;
+      for (let i = 0; Date.now() < ends; ++i) {
+        await page.mouse.move(box.x + 60 + 200 * Math.abs(Math.sin(i / 40)), y);
+        await page.waitForTimeout(12);
+        small = Math.min(small, await page.locator('#picture').evaluate((c) => c.width));
+      }
+      await page.mouse.up();
+      const { started, most, failed } = await person.requests();
+      assert.equal(most, 1, 'at most one request is under way');
+      assert.equal(failed, 0);
+      assert.ok(started - before > 4 * seconds, `${started - before} frames in ${seconds} s`);
+      assert.ok(small < box.width, 'frames are smaller while the hand moves');
+      await person.rest();
+      assert.equal((await person.requests()).flying, 0);
+      const quiet = (await person.requests()).started;
+      await page.waitForTimeout(500);
+      assert.equal((await person.requests()).started, quiet, 'a resting page asks for nothing');
+    });
+
+    visit(size, 'the frame says its speed, method, options, error and exposure', async (person, page) => {
+      for (const fact of ['Render', 'Method', 'Options', 'Error', 'Exposure']) {
+        const text = await page.locator(`[data-fact=${fact}]`).innerText();
+        assert.match(text, /\d|Nishita/, fact);
+        assert.doesNotMatch(text, /\?/, fact);
+      }
+      await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
+      await page.locator('[data-fact=Frames]').waitFor();
+      assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
+    });
+
+    visit(size, 'dragging looks around', async (person, page) => {
+      await person.drag({ x: 0.2, y: 0.7 }, { x: 0.5, y: 0.8 });
+      const looked = (await person.scene()).camera;
+      assert.ok(looked.heading_deg < -5, `heading ${looked.heading_deg}`);
+      assert.ok(looked.pitch_deg > 11, `pitch ${looked.pitch_deg}`);
+    });
+
+    visit(size, 'the sun can be dragged', async (person, page) => {
+      // Straight ahead at 10 degrees, where the camera looks: the middle of the picture.
+      await person.drag({ x: 0.5, y: 0.5 }, { x: 0.6, y: 0.4 });
+      const { sun, camera } = await person.scene();
+      assert.equal(camera, undefined);
+      assert.ok(sun.elevation_deg > 12 && sun.elevation_deg < 20, `elevation ${sun.elevation_deg}`);
+      assert.ok(sun.azimuth_deg > 2, `azimuth ${sun.azimuth_deg}`);
+    }, { hash: '#preset=earth&sun.elevation_deg=10&sun.azimuth_deg=0' });
+
+    visit(size, 'a link is the scene, and back goes back', async (person, page) => {
+      assert.equal((await person.scene()).sun.elevation_deg, 3);
+      await person.type('sun.elevation_deg', '12');
+      await person.rest();
+      assert.equal(person.hash(), '#preset=mars&sun.elevation_deg=12');
+      const later = await person.look();
+      await page.goBack();
+      await person.rest();
+      assert.equal((await person.scene()).sun.elevation_deg, 3);
+      await page.goForward();
+      await person.rest();
+      assert.equal((await person.scene()).sun.elevation_deg, 12);
+      assert.equal(await person.look(), later);
+    }, { hash: '#preset=mars&sun.elevation_deg=3' });
+
+    visit(size, 'undo and redo', async (person, page) => {
+      await person.type('sun.elevation_deg', '12');
+      await person.rest();
+      await page.getByRole('button', { name: 'Undo' }).click();
+      assert.equal((await person.scene()).sun, undefined);
+      await page.getByRole('button', { name: 'Redo' }).click();
+      assert.equal((await person.scene()).sun.elevation_deg, 12);
+    });
+
+    visit(size, 'JSON, link, curl and Python make the same frame', async (person, page) => {
+      await person.tab('Take away');
+      await person.photograph('take');
+      const copied = async (kind) => {
+        await page.getByRole('button', { name: `Copy ${kind}` }).click();
+        return page.evaluate(() => navigator.clipboard.readText());
+      };
+      const folder = await mkdtemp(path.join(os.tmpdir(), 'sky-'));
+      try {
+        assert.deepEqual(JSON.parse(await copied('JSON')),
+                         { preset: 'earth', sun: { elevation_deg: 5 }, image: { tone_map: 'aces' } });
+        assert.equal(await copied('Link'), page.url());
+        await run('bash', ['-c', await copied('curl')], { cwd: folder });
+        const byCurl = await readFile(path.join(folder, 'sky.png'));
+        assert.equal(startOf(byCurl), PNG);
+        await rm(path.join(folder, 'sky.png'));
+        await run('python3', ['-c', await copied('Python')], { cwd: folder });
+        assert.ok(byCurl.equals(await readFile(path.join(folder, 'sky.png'))));
+      } finally {
+        await rm(folder, { recursive: true });
+      }
+    }, { hash: '#preset=earth&sun.elevation_deg=5&image.tone_map=aces' });
+
+    visit(size, 'PNG and EXR are downloaded at a chosen size', async (person, page) => {
+      await person.tab('Take away');
+      await page.getByLabel('Width', { exact: true }).fill('320');
+      await page.getByLabel('Height', { exact: true }).fill('100');
+      for (const [format, start] of [['png', PNG], ['exr', EXR]]) {
+        await page.getByLabel('As', { exact: true }).selectOption(format);
+        const [download] = await Promise.all([
+          page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
+        assert.equal(download.suggestedFilename(), `earth.${format}`);
+        const bytes = await readFile(await download.path());
+        assert.equal(startOf(bytes), start);
+        if (format !== 'png') continue;
+        assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [320, 100]);
+      }
+    });
+
+    visit(size, 'what is not a number is refused where it was typed', async (person, page) => {
+      await person.type('sun.elevation_deg', 'high');
+      assert.match(await person.control('sun.elevation_deg').locator('.problem').innerText(), /number/);
+    });
+
+    for (const colorScheme of ['light', 'dark']) {
+      visit(size, `it is accessible in the ${colorScheme}`, async (person, page) => {
+        const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
+        await page.evaluate(axe);
+        for (const tab of ['Skies', 'Adjust', 'Take away']) {
+          await person.tab(tab);
+          const { violations } = await page.evaluate(() => window.axe.run());
+          assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map((n) => n.html)]), [], tab);
+        }
+        const { 0: red } = (await page.locator('#panel')
+          .evaluate((panel) => getComputedStyle(panel).color)).match(/\d+/);
+        assert.equal(Number(red) > 128, colorScheme === 'dark');
+        await person.tab('Adjust');
+        await person.photograph(colorScheme);
+      }, { colorScheme });
+    }
+  });
+}
+
+describe('keyboard and wheel', () => {
+  visit('desktop', 'the wheel zooms', async (person, page) => {
+    await page.mouse.move(400, 400);
+    await page.mouse.wheel(0, -300);
+    assert.ok((await person.scene()).camera.fov_deg < 55);
+  });
+
+  visit('desktop', 'keys look, climb, move the sun and show their own help', async (person, page) => {
+    await page.locator('#picture').focus();
+    for (const key of ['ArrowRight', 'ArrowUp', 'w', 'd', '+']) await page.keyboard.press(key);
+    const { camera, sun } = await person.scene();
+    assert.ok(camera.heading_deg > 0 && camera.pitch_deg > 10 && camera.altitude_km > 0.002);
+    assert.ok(camera.fov_deg < 60 && sun.elevation_deg > 30);
+    await page.keyboard.press('0');
+    assert.equal((await person.scene()).camera, undefined);
+    await page.keyboard.press('?');
+    assert.ok(await page.getByRole('dialog').isVisible());
+    await page.waitForTimeout(200);
+    await person.photograph('help');
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.getByRole('dialog').isVisible()));
+    await page.keyboard.press('c');
+    assert.equal(await page.locator('#panel').isVisible(), false);
+  });
+
+  visit('desktop', 'everything can be reached with the tabulator', async (person, page) => {
+    await page.locator('#picture').focus();
+    const reached = new Set();
+    for (let i = 0; i < 60; ++i) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => document.activeElement.getAttribute('aria-label') ??
+        document.activeElement.textContent.trim()));
+    }
+    for (const name of ['Help', 'Adjust', 'Elevation', 'Azimuth']) assert.ok(reached.has(name), name);
+  });
+});
+
+describe('touch', () => {
+  visit('phone', 'two fingers zoom', async (person, page) => {
+    const client = await person.context.newCDPSession(page);
+    const touch = (type, gap) => client.send('Input.dispatchTouchEvent', {
+      type, touchPoints: type === 'touchEnd' ? []
+        : [{ x: 195 - gap, y: 260, id: 1 }, { x: 195 + gap, y: 260, id: 2 }] });
+    await touch('touchStart', 30);
+    for (let gap = 35; gap <= 90; gap += 5) await touch('touchMove', gap);
+    await touch('touchEnd');
+    assert.ok((await person.scene()).camera.fov_deg < 40);
+  });
+
+  visit('phone', 'a finger looks around', async (person, page) => {
+    const client = await person.context.newCDPSession(page);
+    const touch = (type, x) => client.send('Input.dispatchTouchEvent', {
+      type, touchPoints: type === 'touchEnd' ? [] : [{ x, y: 320, id: 1 }] });
+    await touch('touchStart', 80);
+    for (let x = 90; x <= 240; x += 10) await touch('touchMove', x);
+    await touch('touchEnd');
+    assert.ok((await person.scene()).camera.heading_deg < -5);
+  });
+});

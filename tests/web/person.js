@@ -1,0 +1,180 @@
+// A person at the page: a daemon, a browser, hands, and eyes for what goes wrong.
+
+import { spawn } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { once } from 'node:events';
+import { mkdir } from 'node:fs/promises';
+import { createServer } from 'node:net';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { chromium } from 'playwright-core';
+
+const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
+const binary = process.env.CYANOMETER_BINARY ?? path.join(root, 'build/cyanometer');
+const screenshots = path.join(root, 'build/web-screenshots');
+
+export const SIZES = {
+  desktop: { viewport: { width: 1120, height: 700 } },
+  phone: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true,
+           deviceScaleFactor: 2 },
+};
+
+async function freePort() {
+  const server = createServer().listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  const { port } = server.address();
+  server.close();
+  return port;
+}
+
+/** A daemon that can be stopped and started again on its port. */
+export class Daemon {
+  static async start() {
+    const daemon = new Daemon();
+    daemon.port = await freePort();
+    await daemon.resume();
+    return daemon;
+  }
+  get address() {
+    return `http://127.0.0.1:${this.port}/`;
+  }
+  async resume() {
+    this.process = spawn(binary, ['serve', '--listen', `127.0.0.1:${this.port}`],
+                         { stdio: ['ignore', 'ignore', 'inherit'] });
+    for (let attempt = 0; attempt < 300; ++attempt) {
+      const ready = await fetch(`${this.address}readyz`).catch(() => undefined);
+      if (ready?.ok) return;
+      if (this.process.exitCode !== null) break;
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+    throw new Error(`${binary} serve did not become ready`);
+  }
+  async stop() {
+    if (this.process.exitCode !== null) return;
+    const exit = once(this.process, 'exit');
+    this.process.kill('SIGKILL');
+    await exit;
+  }
+}
+
+export const openBrowser = () => chromium.launch({
+  executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-dev-shm-usage'] });
+
+// Counts the page's own requests for frames as they start and end.
+function countFrames() {
+  const counts = { flying: 0, most: 0, started: 0, failed: 0 };
+  window.frameRequests = counts;
+  const fetchAsBefore = window.fetch;
+  window.fetch = (address, options = {}) => {
+    if (address !== '/v1/render') return fetchAsBefore(address, options);
+    counts.started++;
+    counts.most = Math.max(counts.most, ++counts.flying);
+    let ended = false;
+    const end = () => {
+      if (!ended) counts.flying--;
+      ended = true;
+    };
+    options.signal?.addEventListener('abort', end);
+    return fetchAsBefore(address, options).then(
+      (answer) => {
+        end();
+        if (!answer.ok) counts.failed++;
+        return answer;
+      },
+      (error) => {
+        end();
+        if (error.name !== 'AbortError') counts.failed++;
+        throw error;
+      });
+  };
+}
+
+/** Somebody who looks at the page; what the console complains of is in `complaints`. */
+export class Person {
+  static async arrive(browser, daemon, size, { hash = '', ...options } = {}) {
+    const person = new Person();
+    person.size = size;
+    person.complaints = [];
+    person.context = await browser.newContext({ ...SIZES[size], acceptDownloads: true, ...options });
+    await person.context.grantPermissions(['clipboard-read', 'clipboard-write']);
+    person.page = await person.context.newPage();
+    person.page.on('console', (message) => {
+      if (message.type() === 'error') person.complaints.push(message.text());
+    });
+    person.page.on('pageerror', (error) => person.complaints.push(String(error)));
+    await person.page.addInitScript(countFrames);
+    await person.page.goto(daemon.address + hash);
+    await person.page.locator('.fold').first().waitFor();
+    await person.rest();
+    return person;
+  }
+
+  /** Waits until the picture on screen is the final one. */
+  async rest() {
+    await this.page.waitForTimeout(450);
+    await this.page.waitForFunction(() => {
+      const picture = document.getElementById('picture');
+      const full = Math.round(picture.clientWidth * devicePixelRatio);
+      return window.frameRequests.flying === 0 && picture.dataset.state === 'sharp' &&
+        Math.abs(picture.width - full) <= 2;
+    }, undefined, { timeout: 20000 });
+  }
+  async leave() {
+    await this.context.close();
+  }
+
+  control(path) {
+    return this.page.locator(`.control[data-path="${path}"]`);
+  }
+  /** Opens what the control of `path` is folded away in, and returns the control. */
+  async find(path) {
+    const control = this.control(path);
+    await control.evaluate((element) => {
+      for (let fold = element.closest('details'); fold; fold = fold.parentElement.closest('details')) {
+        fold.open = true;
+      }
+      element.scrollIntoView({ block: 'center' });
+    });
+    return control;
+  }
+  async type(path, text) {
+    const typed = (await this.find(path)).locator('.typed').first();
+    await typed.fill(text);
+    await typed.press('Enter');
+  }
+  async tab(name) {
+    await this.page.getByRole('tab', { name }).click();
+  }
+
+  /** Presses at `from`, moves through the points and lets go: {x, y} of the picture, 0 to 1. */
+  async drag(from, ...points) {
+    const box = await this.page.locator('#picture').boundingBox();
+    const spot = ({ x, y }) => [box.x + x * box.width, box.y + y * box.height];
+    await this.page.mouse.move(...spot(from));
+    await this.page.mouse.down();
+    for (const point of points) await this.page.mouse.move(...spot(point), { steps: 8 });
+    await this.page.mouse.up();
+  }
+
+  /** The scene that the address names, as the page's own JSON. */
+  async scene() {
+    await this.page.waitForTimeout(450);
+    return JSON.parse(await this.page.locator('pre[aria-label="The scene: JSON"]').textContent());
+  }
+  hash() {
+    return decodeURIComponent(new URL(this.page.url()).hash);
+  }
+  requests() {
+    return this.page.evaluate(() => window.frameRequests);
+  }
+  /** A fingerprint of the picture, to see whether it has changed. */
+  async look() {
+    const address = await this.page.locator('#picture').evaluate((canvas) => canvas.toDataURL());
+    return createHash('sha256').update(address).digest('hex');
+  }
+  async photograph(name) {
+    await mkdir(screenshots, { recursive: true });
+    await this.page.screenshot({ path: path.join(screenshots, `${this.size}-${name}.png`) });
+  }
+}

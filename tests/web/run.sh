@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# The page's tests in a real Chromium, against the built daemon (or $CYANOMETER_BINARY); the pictures
+# they take are in build/web-screenshots.
+set -euo pipefail
+cd "$(dirname "$0")"
+if [[ -z ${CYANOMETER_BINARY-} && -x ../../cyanometer ]]; then ../../cyanometer devices >/dev/null; fi
+if [[ ! -d node_modules ]]; then npm ci --no-audit --no-fund >&2; fi
+exec node --test --test-concurrency=1 --test-reporter=tap page.test.js troubles.test.js

@@ -1,0 +1,154 @@
+// Puts the page together: the scene, its picture, its controls.
+
+import { inWords, list, plan } from './api.js';
+import { Camera } from './camera.js';
+import { Constituents } from './constituents.js';
+import { Controls } from './controls.js';
+import { bindFacts } from './facts.js';
+import { bindAddress, readLink } from './link.js';
+import { MethodOptions } from './methods.js';
+import { bindPanel, buildFolds } from './panel.js';
+import { fromPointer } from './paths.js';
+import { presetGallery } from './presets.js';
+import { untilAnswered } from './retry.js';
+import { Schema } from './schema.js';
+import { State } from './state.js';
+import { takeAway } from './take.js';
+import { View } from './view.js';
+
+const byId = (id) => document.getElementById(id);
+
+const state = new State(readLink(location.hash));
+const view = new View(byId('picture'), () => state.document());
+const camera = new Camera(byId('picture'), state);
+const panel = bindPanel();
+let controls;
+let methodOptions;
+
+// ---- Words for the person ---------------------------------------------------------------------
+
+function say(text, kind = 'note') {
+  byId('status').textContent = text;
+  byId('status').dataset.kind = kind;
+}
+
+function sayRefused(error) {
+  const beside = error.pointer && controls?.complain(fromPointer(error.pointer), error.message);
+  say(beside ? 'The daemon refuses this scene; the last good picture is still shown.'
+             : error.message, 'refused');
+}
+
+view.addEventListener('waiting', ({ detail }) => say(inWords(detail), 'waiting'));
+view.addEventListener('refused', ({ detail }) => sayRefused(detail));
+view.addEventListener('frame', () => {
+  if (byId('status').textContent) say('');
+  controls?.forgive();
+});
+bindFacts(byId('facts'), view);
+
+// ---- What the daemon makes of the scene -------------------------------------------------------
+
+let planning;
+
+async function resolveScene() {
+  planning?.abort();
+  planning = new AbortController();
+  const { signal } = planning;
+  const ask = (scene) => untilAnswered(() => plan(scene, signal), () => signal.throwIfAborted());
+  try {
+    if (!state.knowsBase()) {
+      const { preset } = state;
+      state.learnBase(preset, (await ask({ preset })).scene);
+    }
+    const scene = state.document();
+    const answer = await ask(scene);
+    state.resolve(scene, answer.scene);
+    methodOptions?.explain(answer);
+  } catch (error) {
+    // A refused scene is told of by its frame, and an aborted question was about an old one.
+    if (error.name !== 'AbortError' && error.pointer === undefined) say(inWords(error), 'refused');
+  }
+}
+
+// ---- The scene changes ------------------------------------------------------------------------
+
+let redraw;
+
+function refreshControls() {
+  redraw ??= requestAnimationFrame(() => {
+    redraw = undefined;
+    controls?.refresh();
+    byId('undo').disabled = !state.canUndo();
+    byId('redo').disabled = !state.canRedo();
+  });
+}
+
+state.addEventListener('change', () => {
+  view.change();
+  refreshControls();
+});
+state.addEventListener('settle', () => {
+  refreshControls();
+  resolveScene();
+});
+bindAddress(state);
+
+// ---- Keys -------------------------------------------------------------------------------------
+
+byId('undo').addEventListener('click', () => state.undo());
+byId('redo').addEventListener('click', () => state.redo());
+byId('show-help').addEventListener('click', () => byId('help').showModal());
+
+document.addEventListener('keydown', (event) => {
+  if (byId('help').open || event.altKey) return;
+  const typing = event.target.closest('input[type=text], input[type=number], textarea');
+  if (event.ctrlKey || event.metaKey) {
+    if (event.key.toLowerCase() !== 'z' || typing) return;
+    event.preventDefault();
+    if (event.shiftKey) state.redo();
+    else state.undo();
+    return;
+  }
+  if (typing) return;
+  const onPicture = event.target === byId('picture') || event.target === document.body;
+  if (event.key === '?') byId('help').showModal();
+  else if (event.key.toLowerCase() === 'c' && !event.target.closest('select')) panel.toggle();
+  else if (onPicture && camera.key(event)) event.preventDefault();
+});
+
+// ---- Starting ---------------------------------------------------------------------------------
+
+const idle = () => new Promise((resolve) => {
+  const look = () => (view.settled ? resolve() : setTimeout(look, 100));
+  look();
+});
+
+async function start() {
+  resolveScene();
+  const ask = (what) => untilAnswered(() => list(what), (error) => say(inWords(error), 'waiting'));
+  const [root, { presets }, { methods }] =
+    await Promise.all([ask('schema'), ask('presets'), ask('methods')]);
+  const schema = new Schema(root, () => {
+    const chosen = state.value('spectrum.wavelengths_nm');
+    return Array.isArray(chosen) ? chosen.length : undefined;
+  });
+  state.rivals = (path) => schema.rivals(path);
+  controls = new Controls(state, schema);
+  const constituents = new Constituents(state, schema, controls);
+  methodOptions = new MethodOptions(methods, state, controls);
+  byId('adjust').replaceChildren(...buildFolds(schema, controls, MethodOptions.paths(methods), {
+    atmosphere: [constituents.element], method: [methodOptions.element] }));
+  byId('skies').replaceChildren(presetGallery(presets, state, idle));
+  byId('take').replaceChildren(...takeAway(state, view));
+  for (const event of ['settle', 'resolve']) {
+    state.addEventListener(event, () => {
+      constituents.refresh();
+      methodOptions.refresh();
+      refreshControls();
+    });
+  }
+  constituents.refresh();
+  refreshControls();
+}
+
+start().catch((error) => say(inWords(error), 'refused'));
