@@ -12,8 +12,7 @@ namespace cyanometer {
 namespace {
 
 const Encoding* encoding_of_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (extension.starts_with('.')) extension.erase(0, 1);
+  const std::string extension = std::filesystem::path(path).extension().string();
   for (const auto& each : encodings()) {
     if (std::ranges::find(each.extensions, extension) != each.extensions.end()) return &each;
   }

@@ -120,6 +120,11 @@ std::string exchange(const std::string& bytes) {
   return raw.receive();
 }
 
+std::string get_if_changed(const std::string& target, const std::string& tag) {
+  return exchange("GET " + target + " HTTP/1.1\r\nHost: here\r\nIf-None-Match: " + tag +
+                  "\r\nConnection: close\r\n\r\n");
+}
+
 int status_of(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") ? std::stoi(answer.substr(9)) : 0;
 }
