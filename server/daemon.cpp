@@ -12,7 +12,7 @@ HttpServer::Options options(const Config& config, ConnectionLimits limits) {
 
 HttpServer::Handlers handlers(const Router& router) {
   return {[&router](const Request& request) { return router.answer(request); },
-          [&router](const ProblemDetails& problem, const std::string& peer) {
+          [&router](const HttpProblem& problem, const std::string& peer) {
             return router.refuse(problem, peer);
           }};
 }

@@ -19,43 +19,43 @@ constexpr std::array later_paths{"/v1/stream", "/v1/composite", "/v1/compare", "
 
 constexpr int client_left = 499;  ///< in logs and metrics; nobody is there to read it
 
-ProblemDetails problem_of(const SceneError& error) {
-  ProblemDetails problem(400, error.what());
+HttpProblem problem_of(const SceneError& error) {
+  HttpProblem problem(400, error.what());
   problem.pointer = error.pointer;
   problem.given = error.given;
   problem.allowed = error.allowed;
   return problem;
 }
 
-ProblemDetails problem_of(const OverLimit& limit) {
-  ProblemDetails problem(422, limit.what());
+HttpProblem problem_of(const OverLimit& limit) {
+  HttpProblem problem(422, limit.what());
   problem.pointer = limit.pointer;
   return problem;
 }
 
-ProblemDetails problem_of(const Cancelled& cancelled) {
+HttpProblem problem_of(const Cancelled& cancelled) {
   return cancelled.reason == Cancelled::Reason::deadline
-             ? ProblemDetails(504, "The deadline passed before the work was done.")
-             : ProblemDetails(client_left, "The client left.");
+             ? HttpProblem(504, "The deadline passed before the work was done.")
+             : HttpProblem(client_left, "The client left.");
 }
 
-ProblemDetails problem_of(const QueueFull& full) {
-  ProblemDetails problem(503, "The render queue is full.");
+HttpProblem problem_of(const QueueFull& full) {
+  HttpProblem problem(503, "The render queue is full.");
   problem.retry_after_s = full.retry_after_s;
   return problem;
 }
 
-ProblemDetails no_device() {
-  ProblemDetails problem(503, "There is no device to render on.");
+HttpProblem no_device() {
+  HttpProblem problem(503, "There is no device to render on.");
   problem.retry_after_s = 5;
   return problem;
 }
 
 /// The exception in flight as a problem; what it says of the inside is logged, never sent.
-ProblemDetails current_problem() {
+HttpProblem current_problem() {
   try {
     throw;
-  } catch (const ProblemDetails& problem) {
+  } catch (const HttpProblem& problem) {
     return problem;
   } catch (const SceneError& error) {
     return problem_of(error);
@@ -72,10 +72,10 @@ ProblemDetails current_problem() {
   } catch (...) {
     log_event(spdlog::level::err, "unexpected: not an exception");
   }
-  return ProblemDetails(500, "Something went wrong inside the server; its log says more.");
+  return HttpProblem(500, "Something went wrong inside the server; its log says more.");
 }
 
-Answer answer_of(const ProblemDetails& problem, const std::string& id) {
+Answer answer_of(const HttpProblem& problem, const std::string& id) {
   Answer answer;
   answer.status = problem.status;
   answer.headers = {{"Content-Type", "application/problem+json"},
@@ -125,11 +125,12 @@ Answer Router::dispatch(const Request& request) const {
   const std::string allow = allowed_methods(request.path);
   if (allow.empty()) {
     const bool later = std::ranges::find(later_paths, request.path) != later_paths.end();
-    throw ProblemDetails(404, later ? "This version does not offer " + request.path + " yet."
-                             : "There is nothing here; GET /openapi.json lists what there is.");
+    throw HttpProblem(404,
+                      later ? "This version does not offer " + request.path + " yet."
+                            : "There is nothing here; GET /openapi.json lists what there is.");
   }
   if (request.method == "OPTIONS") return {.status = 204, .headers = {{"Allow", allow}}};
-  ProblemDetails problem(405, "This address takes " + allow + ".");
+  HttpProblem problem(405, "This address takes " + allow + ".");
   problem.allow = allow;
   throw problem;
 }
@@ -163,7 +164,7 @@ Answer Router::answer(const Request& request) const {
   return answer;
 }
 
-Answer Router::refuse(const ProblemDetails& problem, const std::string& peer) const {
+Answer Router::refuse(const HttpProblem& problem, const std::string& peer) const {
   service_.metrics.answered("none", "other", problem.status, 0);
   log_line(spdlog::level::info,
            {{"peer", peer}, {"status", problem.status}, {"refused", problem.detail}});

@@ -15,7 +15,7 @@ class Router {
   /// Answers, counts and logs. Never throws.
   Answer answer(const Request& request) const;
   /// The same for what could not be read as a request.
-  Answer refuse(const ProblemDetails& problem, const std::string& peer) const;
+  Answer refuse(const HttpProblem& problem, const std::string& peer) const;
 
  private:
   Answer dispatch(const Request& request) const;

@@ -12,7 +12,7 @@ namespace cyanometer {
 namespace {
 
 const Encoding* encoding_of_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = std::filesystem::path(path).extension().string();
   for (const auto& each : encodings()) {
     if (std::ranges::find(each.extensions, extension) != each.extensions.end()) return &each;
   }

@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-
 #include "server/commands/command.h"
 #include "server/config.h"
 #include "server/daemon.h"

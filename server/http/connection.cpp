@@ -63,7 +63,7 @@ bool Connection::wait(std::chrono::milliseconds idle) const {
 bool Connection::fill(Clock::time_point deadline) {
   std::array<pollfd, 1> one{{{socket_, POLLIN, 0}}};
   if (Clock::now() >= deadline || poll_until(one, deadline) == 0) {
-    throw ProblemDetails(408, "The request did not arrive in time.");
+    throw HttpProblem(408, "The request did not arrive in time.");
   }
   std::array<char, 16384> chunk;
   const auto got = ::recv(socket_, chunk.data(), chunk.size(), MSG_DONTWAIT);
@@ -82,9 +82,9 @@ std::optional<std::string> Connection::read_head() {
     const auto end = buffer_.find("\r\n\r\n", searched);
     const auto size = end == std::string::npos ? buffer_.size() : end + 4;
     if (std::min(buffer_.find("\r\n"), size) > limits_.request_line_bytes) {
-      throw ProblemDetails(414, "The address is too long.");
+      throw HttpProblem(414, "The address is too long.");
     }
-    if (size > limits_.head_bytes) throw ProblemDetails(431, "The headers are too long.");
+    if (size > limits_.head_bytes) throw HttpProblem(431, "The headers are too long.");
     if (end != std::string::npos) {
       std::string head = buffer_.substr(0, size);
       buffer_.erase(0, size);

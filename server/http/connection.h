@@ -38,7 +38,8 @@ class Connection {
   /// the server stops.
   bool wait(std::chrono::milliseconds idle) const;
   /// The next request, whole; none when the client left in the middle of it.
-  /// @throws ProblemDetails; the connection must then be closed, its place in the stream is unknown
+  /// @throws HttpProblem; the connection must then be closed, its place in the stream is
+  /// unknown
   std::optional<Received> read();
   /// False when the client did not take it all.
   bool write(std::string_view bytes) const;

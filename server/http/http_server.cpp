@@ -82,7 +82,7 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   Connection connection(socket, wake_, options_.limits);
   if (ThreadPool::overloaded()) {
-    ProblemDetails problem(503, "Too many connections.");
+    HttpProblem problem(503, "Too many connections.");
     problem.retry_after_s = 1;
     refuse(connection, problem);
   } else {
@@ -110,7 +110,7 @@ bool HttpServer::serve_one(Connection& connection, bool last) {
     const bool close = received->close || last || stopping_;
     return connection.write(serialise(answer, received->request.method == "HEAD", close)) &&
            !close;
-  } catch (const ProblemDetails& problem) {
+  } catch (const HttpProblem& problem) {
     refuse(connection, problem);
     return false;
   }
@@ -125,7 +125,7 @@ bool HttpServer::wait_for_request(const Connection& connection, bool first) cons
               : idle);
 }
 
-void HttpServer::refuse(Connection& connection, const ProblemDetails& problem) const {
+void HttpServer::refuse(Connection& connection, const HttpProblem& problem) const {
   connection.write(serialise(handlers_.refuse(problem, connection.peer()), false, true));
 }
 

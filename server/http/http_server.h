@@ -24,7 +24,7 @@ class HttpServer : private httplib::Server {
     /// Must not throw.
     std::function<Answer(const Request&)> answer;
     /// The answer to what could not be read as a request.
-    std::function<Answer(const ProblemDetails&, const std::string& peer)> refuse;
+    std::function<Answer(const HttpProblem&, const std::string& peer)> refuse;
   };
 
   HttpServer(Options options, Handlers handlers);
@@ -47,7 +47,7 @@ class HttpServer : private httplib::Server {
   /// True when one more request may be waited for.
   bool serve_one(Connection& connection, bool last);
   bool wait_for_request(const Connection& connection, bool first) const;
-  void refuse(Connection& connection, const ProblemDetails& problem) const;
+  void refuse(Connection& connection, const HttpProblem& problem) const;
 
   Options options_;
   Handlers handlers_;

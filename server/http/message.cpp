@@ -54,8 +54,8 @@ std::string decode(std::string_view text, bool plus_is_space) {
       const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
       const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
       if (high < 0 || low < 0) {
-        throw ProblemDetails(400,
-                      "The address holds a '%' that two hexadecimal digits do not follow.");
+        throw HttpProblem(400,
+                          "The address holds a '%' that two hexadecimal digits do not follow.");
       }
       out += static_cast<char>(high * 16 + low);
       i += 2;
@@ -115,18 +115,18 @@ void parse_request_line(std::string_view line, Head& head) {
   const auto first = line.find(' ');
   const auto last = line.rfind(' ');
   if (first == std::string_view::npos || first == last) {
-    throw ProblemDetails(400, "The request line is not 'METHOD target HTTP/1.1'.");
+    throw HttpProblem(400, "The request line is not 'METHOD target HTTP/1.1'.");
   }
   head.method = line.substr(0, first);
   head.target = line.substr(first + 1, last - first - 1);
   const auto version = line.substr(last + 1);
   if (!is_token(head.method) || head.target.empty() || !is_visible(head.target)) {
-    throw ProblemDetails(400, "The request line holds characters that do not belong there.");
+    throw HttpProblem(400, "The request line holds characters that do not belong there.");
   }
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
     if (version.starts_with("HTTP/"))
-      throw ProblemDetails(505, "HTTP/1.1 and HTTP/1.0 are spoken here.");
-    throw ProblemDetails(400, "The request line is not 'METHOD target HTTP/1.1'.");
+      throw HttpProblem(505, "HTTP/1.1 and HTTP/1.0 are spoken here.");
+    throw HttpProblem(400, "The request line is not 'METHOD target HTTP/1.1'.");
   }
   head.minor_version = version.back() - '0';
 }
@@ -134,12 +134,12 @@ void parse_request_line(std::string_view line, Head& head) {
 std::pair<std::string, std::string> parse_field(std::string_view line) {
   const auto colon = line.find(':');
   if (colon == std::string_view::npos || !is_token(line.substr(0, colon))) {
-    throw ProblemDetails(400, "A header line is not 'Name: value'.");
+    throw HttpProblem(400, "A header line is not 'Name: value'.");
   }
   const auto value = trim(line.substr(colon + 1));
   for (const char c : value) {
     if ((c >= 0 && c < 0x20 && c != '\t') || c == 0x7f) {
-      throw ProblemDetails(400, "A header holds a control character.");
+      throw HttpProblem(400, "A header holds a control character.");
     }
   }
   return {lower(line.substr(0, colon)), std::string(value)};
@@ -149,8 +149,9 @@ std::size_t parse_length(const std::string& text) {
   std::size_t length = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
   if (text.empty() || error != std::errc{} || end != text.data() + text.size()) {
-    if (error == std::errc::result_out_of_range) throw ProblemDetails(413, "The body is too long.");
-    throw ProblemDetails(400, "Content-Length is not a decimal number.");
+    if (error == std::errc::result_out_of_range)
+      throw HttpProblem(413, "The body is too long.");
+    throw HttpProblem(400, "Content-Length is not a decimal number.");
   }
   return length;
 }
@@ -178,7 +179,7 @@ Head parse_head(std::string_view bytes) {
   }
   const auto hosts = count(head.headers, "host");
   if (hosts > 1 || (hosts == 0 && head.minor_version == 1)) {
-    throw ProblemDetails(400, "HTTP/1.1 wants one Host header.");
+    throw HttpProblem(400, "HTTP/1.1 wants one Host header.");
   }
   return head;
 }
@@ -189,29 +190,29 @@ Framing frame_body(const Head& head, std::size_t most_body_bytes) {
   const bool coded = count(headers, "transfer-encoding") > 0;
   const auto lengths = count(headers, "content-length");
   if (lengths > 1 || (coded && lengths > 0)) {
-    throw ProblemDetails(400, "The body's length is given twice.");
+    throw HttpProblem(400, "The body's length is given twice.");
   }
-  if (coded) throw ProblemDetails(411, "Send the body with a Content-Length, not in chunks.");
+  if (coded) throw HttpProblem(411, "Send the body with a Content-Length, not in chunks.");
   if (lengths == 0 &&
       (head.method == "POST" || head.method == "PUT" || head.method == "PATCH")) {
-    throw ProblemDetails(411, "A body needs a Content-Length.");
+    throw HttpProblem(411, "A body needs a Content-Length.");
   }
   const auto length = lengths == 0 ? 0 : parse_length(join(headers, "content-length"));
   if (length > most_body_bytes) {
-    throw ProblemDetails(413,
-                  "The body is longer than " + std::to_string(most_body_bytes) + " bytes.");
+    throw HttpProblem(413,
+                      "The body is longer than " + std::to_string(most_body_bytes) + " bytes.");
   }
   const auto coding = lower(join(headers, "content-encoding"));
   if (!coding.empty() && coding != "identity") {
-    throw ProblemDetails(415, "A body is read as it is, without Content-Encoding.");
+    throw HttpProblem(415, "A body is read as it is, without Content-Encoding.");
   }
   if (lower(join(headers, "content-type")).starts_with("multipart/")) {
-    throw ProblemDetails(415, "A body is one JSON document, not multipart.");
+    throw HttpProblem(415, "A body is one JSON document, not multipart.");
   }
   const auto expectation = lower(join(headers, "expect"));
   framing.expect_continue = expectation == "100-continue";
   if (!expectation.empty() && !framing.expect_continue) {
-    throw ProblemDetails(417, "Expect knows 100-continue alone.");
+    throw HttpProblem(417, "Expect knows 100-continue alone.");
   }
   // A body that its method gives no meaning is not read: the connection ends with the answer,
   // so that its bytes are never taken for a request.

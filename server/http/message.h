@@ -44,7 +44,7 @@ struct Head {
 };
 
 /// Strict RFC 9112: CRLF line ends, token names, no folding, no control characters, one Host.
-/// @throws ProblemDetails 400, 505
+/// @throws HttpProblem 400, 505
 Head parse_head(std::string_view bytes);
 
 /// What follows the head, and what must become of the connection.
@@ -55,11 +55,11 @@ struct Framing {
 };
 
 /// Refuses every framing that two parsers could read differently.
-/// @throws ProblemDetails 400, 411, 413, 415, 417
+/// @throws HttpProblem 400, 411, 413, 415, 417
 Framing frame_body(const Head& head, std::size_t most_body_bytes);
 
 /// Path and query out of the head's target, headers and a safe id; the body is not read yet.
-/// @throws ProblemDetails 400 where an escape is not one
+/// @throws HttpProblem 400 where an escape is not one
 Request make_request(const Head& head);
 
 /// Status line, headers and, unless `head_only`, the body.

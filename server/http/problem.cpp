@@ -33,7 +33,7 @@ std::string_view status_phrase(int status) {
   return found == phrases.end() ? "Unknown" : found->second;
 }
 
-std::string problem_json(const ProblemDetails& problem, std::string_view request_id) {
+std::string problem_json(const HttpProblem& problem, std::string_view request_id) {
   nlohmann::ordered_json out{{"type", "about:blank"},
                              {"title", status_phrase(problem.status)},
                              {"status", problem.status},

@@ -7,7 +7,7 @@
 
 namespace cyanometer {
 
-struct ProblemDetails : std::exception {
+struct HttpProblem : std::exception {
   int status = 500;
   std::string detail;     ///< for people: what is wrong with this request
   std::string pointer;    ///< RFC 6901, into the request's body; empty: not about one member
@@ -16,7 +16,7 @@ struct ProblemDetails : std::exception {
   int retry_after_s = 0;  ///< sent as Retry-After where positive
   std::string allow;      ///< sent as Allow where not empty
 
-  ProblemDetails(int status_, std::string detail_) : status(status_), detail(std::move(detail_)) {}
+  HttpProblem(int status_, std::string detail_) : status(status_), detail(std::move(detail_)) {}
   const char* what() const noexcept override { return detail.c_str(); }
 };
 
@@ -24,6 +24,6 @@ struct ProblemDetails : std::exception {
 std::string_view status_phrase(int status);
 
 /// The problem as bytes of application/problem+json; `request_id` is its instance.
-std::string problem_json(const ProblemDetails& problem, std::string_view request_id);
+std::string problem_json(const HttpProblem& problem, std::string_view request_id);
 
 }  // namespace cyanometer

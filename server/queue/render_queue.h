@@ -33,8 +33,8 @@ struct Job {
       client;  ///< whose turn it takes: clients alternate, one client's jobs keep their order
   bool quick = false;           ///< milliseconds of work: goes before all others
   std::size_t frame_bytes = 0;  ///< memory of the result, until the Ticket dies
-  Watch watch;
-  std::function<void(Engine&, const Watch&)> work;
+  Watch watch = {};
+  std::function<void(Engine&, const Watch&)> work = {};
 };
 
 /// What a job that was done leaves: keep it until the frame is encoded and freed.
@@ -46,7 +46,7 @@ struct Ticket {
 class RenderQueue {
  public:
   struct Options {
-    EngineOptions engine;
+    EngineOptions engine = {};
     std::size_t capacity = 64;                       ///< jobs that wait
     std::size_t frame_bytes = std::size_t{2} << 30;  ///< of all frames alive at once
     std::function<void(const std::string& event)> log = [](const std::string&) {};

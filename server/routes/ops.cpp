@@ -58,7 +58,8 @@ Route healthz() {
           "The process is alive",
           [] { return text_operation({503}); },
           [](const Request&, Service& service) {
-            if (service.queue.failed()) throw ProblemDetails(503, "There is no device to work on.");
+            if (service.queue.failed())
+              throw HttpProblem(503, "There is no device to work on.");
             return text("ok\n", "text/plain");
           },
           true};
@@ -70,8 +71,8 @@ Route readyz() {
           "Requests are taken",
           [] { return text_operation({503}); },
           [](const Request&, Service& service) {
-            if (service.draining) throw ProblemDetails(503, "The server is stopping.");
-            if (!service.ready()) throw ProblemDetails(503, "The device is being prepared.");
+            if (service.draining) throw HttpProblem(503, "The server is stopping.");
+            if (!service.ready()) throw HttpProblem(503, "The device is being prepared.");
             return text("ready\n", "text/plain");
           },
           true};

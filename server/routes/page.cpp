@@ -45,7 +45,7 @@ constexpr std::string_view policy =
 
 Answer file(const Request& request, Service&) {
   const EmbeddedFile* found = find(request.path);
-  if (found == nullptr) throw ProblemDetails(404, "This build has no page.");
+  if (found == nullptr) throw HttpProblem(404, "This build has no page.");
   Answer answer;
   answer.headers = {{"Content-Type", std::string(media_type(found->path))},
                     {"Cache-Control", "no-cache"},

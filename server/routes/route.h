@@ -18,7 +18,7 @@ struct Route {
   std::string summary;
   /// The rest of its OpenAPI operation: parameters, requestBody, responses.
   std::function<nlohmann::json()> operation;
-  /// @throws ProblemDetails, SceneError, OverLimit, Cancelled, QueueFull, DeviceUnavailable
+  /// @throws HttpProblem, SceneError, OverLimit, Cancelled, QueueFull, DeviceUnavailable
   std::function<Answer(const Request&, Service&)> answer;
   bool ops = false;  ///< also on the listener for operators
 };

@@ -20,7 +20,7 @@ bool names_format(const nlohmann::json& document) {
 
 nlohmann::json body_document(const Request& request) {
   if (request.body.empty()) {
-    ProblemDetails problem(400, "The body is empty; the smallest scene is {}.");
+    HttpProblem problem(400, "The body is empty; the smallest scene is {}.");
     problem.allowed = "a JSON document";
     throw problem;
   }
@@ -45,7 +45,7 @@ nlohmann::json negotiate_format(nlohmann::json document, const Request& request)
   for (const auto& each : encodings()) types.push_back(each.media_type);
   const auto best = preferred(accept, types);
   if (!best) {
-    ProblemDetails problem(406, "None of the media types that Accept names can be rendered.");
+    HttpProblem problem(406, "None of the media types that Accept names can be rendered.");
     problem.given = accept;
     for (const auto type : types)
       problem.allowed += (problem.allowed.empty() ? "" : ", ") + std::string(type);

@@ -16,7 +16,7 @@ struct SceneRequest {
   std::string canonical;
 };
 
-/// The body as JSON. @throws SceneError, ProblemDetails 400 where it is empty
+/// The body as JSON. @throws SceneError, HttpProblem 400 where it is empty
 nlohmann::json body_document(const Request& request);
 /// The document of a link. @throws SceneError
 nlohmann::json link_document(const Request& request);
@@ -25,7 +25,7 @@ nlohmann::json link_document(const Request& request);
 SceneRequest scene_request(const nlohmann::json& document);
 
 /// Where the document names no `image.format`, the one the Accept header prefers.
-/// @throws ProblemDetails 406
+/// @throws HttpProblem 406
 nlohmann::json negotiate_format(nlohmann::json document, const Request& request);
 
 /// Memory of the scene's frame: float planes and displayed pixels.

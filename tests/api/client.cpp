@@ -1,0 +1,144 @@
+// See client.h.
+#include "tests/api/client.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <thread>
+
+namespace cyanometer::testing {
+
+using namespace std::chrono_literals;
+
+Config free_port() {
+  Config config;
+  config.listen = "127.0.0.1:0";
+  return config;
+}
+
+Daemon& shared_daemon() {
+  static Daemon& daemon = []() -> Daemon& {
+    ConnectionLimits limits;
+    limits.head = 500ms;
+    limits.body = 500ms;
+    static Daemon made(free_port(), limits);
+    made.start();
+    wait_until_ready(made);
+    return made;
+  }();
+  return daemon;
+}
+
+void wait_until_ready(Daemon& daemon) {
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (!daemon.service().ready() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(5ms);
+  }
+  ASSERT_TRUE(daemon.service().ready());
+}
+
+httplib::Client client_of(const Daemon& daemon) {
+  httplib::Client client("127.0.0.1", daemon.port());
+  client.set_keep_alive(true);
+  client.set_tcp_nodelay(true);
+  client.set_read_timeout(60);
+  return client;
+}
+
+httplib::Client client() { return client_of(shared_daemon()); }
+
+nlohmann::json small_scene() { return {{"image", {{"width", 16}, {"height", 8}}}}; }
+
+nlohmann::json long_scene() {
+  return {{"method", {{"name", "nishita"}, {"view_samples", 2000}, {"light_samples", 2000}}},
+          {"image", {{"width", 2048}, {"height", 2048}}}};
+}
+
+RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+}
+
+RawClient::~RawClient() { close(); }
+
+void RawClient::close() {
+  if (socket_ >= 0) ::close(socket_);
+  socket_ = -1;
+}
+
+void RawClient::send(const std::string& bytes) {
+  // The server may have refused and closed already: then its answer is what is of interest.
+  (void)!::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+}
+
+bool RawClient::receive_some(std::string& into, std::chrono::milliseconds patience) {
+  pollfd one{socket_, POLLIN, 0};
+  if (::poll(&one, 1, static_cast<int>(patience.count())) <= 0) return false;
+  std::array<char, 65536> chunk;
+  const auto got = ::recv(socket_, chunk.data(), chunk.size(), 0);
+  if (got <= 0) return false;
+  into.append(chunk.data(), static_cast<std::size_t>(got));
+  return true;
+}
+
+std::string RawClient::receive(std::chrono::milliseconds patience) {
+  std::string all = std::move(rest_);
+  rest_.clear();
+  while (receive_some(all, patience)) {
+  }
+  return all;
+}
+
+std::string RawClient::receive_one() {
+  const std::string field = "Content-Length: ";
+  for (;;) {
+    const auto head = rest_.find("\r\n\r\n");
+    const auto length = rest_.find(field);
+    if (head != std::string::npos && length < head) {
+      const auto end = head + 4 + std::stoul(rest_.substr(length + field.size()));
+      if (rest_.size() >= end) {
+        const std::string one = rest_.substr(0, end);
+        rest_.erase(0, end);
+        return one;
+      }
+    }
+    if (!receive_some(rest_, 10s)) return std::exchange(rest_, "");
+  }
+}
+
+std::string exchange(const std::string& bytes) {
+  RawClient raw;
+  raw.send(bytes);
+  return raw.receive();
+}
+
+std::string get_if_changed(const std::string& target, const std::string& tag) {
+  return exchange("GET " + target + " HTTP/1.1\r\nHost: here\r\nIf-None-Match: " + tag +
+                  "\r\nConnection: close\r\n\r\n");
+}
+
+int status_of(const std::string& answer) {
+  return answer.starts_with("HTTP/1.1 ") ? std::stoi(answer.substr(9)) : 0;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+nlohmann::json json_of(const httplib::Result& answer) {
+  EXPECT_TRUE(answer);
+  return answer ? nlohmann::json::parse(answer->body) : nlohmann::json();
+}
+
+}  // namespace cyanometer::testing

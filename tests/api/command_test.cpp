@@ -1,0 +1,272 @@
+// The program as its users run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iterator>
+#include <thread>
+
+#include "server/config.h"
+#include "tests/api/client.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// The program stands beside the tests.
+fs::path program() { return fs::read_symlink("/proc/self/exe").parent_path() / "cyanometer"; }
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A folder of this test's own.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "cyanometer-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+/// A run of the program; its output is read when it has ended.
+class Program {
+ public:
+  Program(const std::vector<std::string>& arguments, const std::string& input = "") {
+    std::ofstream(folder_ / "in") << input;
+    std::fflush(nullptr);  // or the child writes it once more
+    pid_ = fork();
+    if (pid_ != 0) return;
+    const auto redirect = [&](const char* name, const char* mode, FILE* stream) {
+      if (!freopen((folder_ / name).c_str(), mode, stream)) _exit(99);
+    };
+    redirect("in", "r", stdin);
+    redirect("out", "w", stdout);
+    redirect("err", "w", stderr);
+    std::vector<char*> argv;
+    const std::string path = program();
+    argv.push_back(const_cast<char*>(path.c_str()));
+    for (const auto& each : arguments) argv.push_back(const_cast<char*>(each.c_str()));
+    argv.push_back(nullptr);
+    execv(path.c_str(), argv.data());
+    _exit(98);
+  }
+  ~Program() {
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      wait();
+    }
+  }
+  int wait() {
+    int status = 0;
+    waitpid(std::exchange(pid_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  void signal(int number) const { kill(pid_, number); }
+  std::string out() const { return read_file(folder_ / "out"); }
+  std::string err() const { return read_file(folder_ / "err"); }
+  /// The port of a daemon, once it says it.
+  int port() const {
+    for (int i = 0; i < 2000; ++i) {
+      const auto text = err();
+      const auto at = text.find("\"port\":");
+      if (at != std::string::npos) return std::stoi(text.substr(at + 7));
+      std::this_thread::sleep_for(5ms);
+    }
+    ADD_FAILURE() << err();
+    return 0;
+  }
+
+ private:
+  Folder folder_;
+  pid_t pid_;
+};
+
+TEST(Command, EveryCommandHelpsWithAnExample) {
+  for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
+                           "contact-sheet", "schema"}) {
+    Program run({name, "--help"});
+    EXPECT_EQ(run.wait(), 0) << name;
+    EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
+  }
+}
+
+TEST(Command, AnUnknownOneIsRefused) {
+  Program run({"paint"});
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_FALSE(run.err().empty());
+  EXPECT_TRUE(run.out().empty());
+}
+
+TEST(Command, RenderTakesItsFormatFromTheExtension) {
+  Folder folder;
+  const std::vector<std::pair<std::string, std::string>> kinds{{"png", "\x89PNG"},
+                                                               {"exr", "\x76\x2f\x31\x01"},
+                                                               {"npy", "\x93NUMPY"},
+                                                               {"jpg", "\xff\xd8"}};
+  for (const auto& [extension, magic] : kinds) {
+    const auto file = folder / ("sky." + extension);
+    Program run({"render", "-", "-o", file}, small_scene().dump());
+    EXPECT_EQ(run.wait(), 0) << run.err();
+    EXPECT_TRUE(read_file(file).starts_with(magic)) << extension;
+  }
+}
+
+TEST(Command, RenderRefusesAnExtensionThatContradictsTheScene) {
+  Folder folder;
+  auto scene = small_scene();
+  scene["image"]["format"] = "exr";
+  Program run({"render", "-", "-o", folder / "sky.png"}, scene.dump());
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("exr"));
+  EXPECT_FALSE(fs::exists(folder / "sky.png"));
+}
+
+TEST(Command, RenderRefusesASceneByName) {
+  Program run({"render", "-", "-o", "-"}, R"({"planet":{"radius_km":-1}})");
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("/planet/radius_km"));
+  EXPECT_TRUE(run.out().empty());
+}
+
+TEST(Command, RenderGivesWhatTheServerGives) {
+  Program run({"render", "-", "-o", "-"}, small_scene().dump());
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_EQ(run.out(),
+            client().Post("/v1/render", small_scene().dump(), "application/json")->body);
+}
+
+TEST(Command, RenderIsCancelledBySigint) {
+  Program run({"render", "-", "-o", "-"}, long_scene().dump());
+  std::this_thread::sleep_for(1500ms);
+  const auto start = std::chrono::steady_clock::now();
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 130) << run.err();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 2s);
+}
+
+TEST(Command, AFileThatIsNotThereIsAFailure) {
+  Program run({"render", "/nowhere.json", "-o", "sky.png"});
+  EXPECT_EQ(run.wait(), 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("/nowhere.json"));
+}
+
+TEST(Command, PlanRadianceAndSchemaAnswerAsTheRoutesDo) {
+  Program plan({"plan", "-"}, small_scene().dump());
+  EXPECT_EQ(plan.wait(), 0) << plan.err();
+  EXPECT_EQ(json::parse(plan.out()),
+            json_of(client().Post("/v1/plan", small_scene().dump(), "application/json")));
+  const std::string directions =
+      R"({"directions":[{"elevation_deg":45,"azimuth_deg":10}],"scene":{}})";
+  Program radiance({"radiance", "-"}, directions);
+  EXPECT_EQ(radiance.wait(), 0) << radiance.err();
+  EXPECT_EQ(json::parse(radiance.out()),
+            json_of(client().Post("/v1/radiance", directions, "application/json")));
+  Program schema({"schema"});
+  EXPECT_EQ(schema.wait(), 0);
+  EXPECT_EQ(json::parse(schema.out()), json_of(client().Get("/v1/schema")));
+}
+
+TEST(Command, DevicesMarksTheOneThatWouldBeUsed) {
+  Program run({"devices"});
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_THAT(run.out(), ::testing::HasSubstr("\n*"));
+  Program none({"devices", "--device", "no such device"});
+  EXPECT_EQ(none.wait(), 1);
+}
+
+TEST(Command, HealthProbesADaemon) {
+  const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
+  Program well({"health", url});
+  EXPECT_EQ(well.wait(), 0) << well.err();
+  Program missing({"health", url + "/v1/nothing"});
+  EXPECT_EQ(missing.wait(), 1);
+  Program nobody({"health", "http://127.0.0.1:1"});
+  EXPECT_EQ(nobody.wait(), 1);
+}
+
+TEST(Serve, SigtermFinishesWhatIsInFlightAndExitsWithZero) {
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  httplib::Client daemon("127.0.0.1", run.port());
+  daemon.set_read_timeout(60);
+  auto scene = small_scene();
+  scene["method"] = {{"name", "nishita"}, {"view_samples", 200}, {"light_samples", 200}};
+  auto answer = std::async(std::launch::async, [&] {
+    return daemon.Post("/v1/render", scene.dump(), "application/json");
+  });
+  std::this_thread::sleep_for(300ms);
+  run.signal(SIGTERM);
+  const auto finished = answer.get();
+  ASSERT_TRUE(finished) << run.err();
+  EXPECT_EQ(finished->status, 200) << finished->body;
+  EXPECT_EQ(run.wait(), 0) << run.err();
+}
+
+TEST(Serve, EveryRequestIsOneLineOfJson) {
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  httplib::Client daemon("127.0.0.1", run.port());
+  daemon.Get("/v1/limits?\"evil\"", {{"X-Request-Id", "abc"}});
+  daemon.Get("/%22%0a%7b");
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 0);
+  std::istringstream lines(run.err());
+  int found = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto entry = json::parse(line);
+    EXPECT_TRUE(entry.contains("time"));
+    if (entry.value("id", "") == "abc") {
+      ++found;
+      EXPECT_EQ(entry.at("path"), "/v1/limits");
+      EXPECT_EQ(entry.at("status"), 200);
+    }
+  }
+  EXPECT_EQ(found, 1);
+}
+
+TEST(Serve, AnAddressThatIsTakenIsAFailure) {
+  Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(shared_daemon().port())});
+  EXPECT_EQ(run.wait(), 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("cannot listen"));
+}
+
+TEST(Serve, ADeviceThatIsNotThereIsAFailure) {
+  Program run({"serve", "--listen", "127.0.0.1:0", "--device", "no such device"});
+  EXPECT_EQ(run.wait(), 1);
+}
+
+TEST(Serve, SettingsComeFromTheEnvironmentAndAreChecked) {
+  setenv("CYANOMETER_QUEUE", "0", 1);
+  Program refused({"serve", "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(refused.wait(), 2);
+  EXPECT_THAT(refused.err(), ::testing::HasSubstr("queue"));
+  setenv("CYANOMETER_QUEUE", "7", 1);
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  unsetenv("CYANOMETER_QUEUE");
+  EXPECT_EQ(json_of(httplib::Client("127.0.0.1", run.port()).Get("/v1/limits")).at("queue"), 7);
+}
+
+TEST(Serve, TheTableOfSettingsListsEachOne) {
+  Program run({"serve", "--help-markdown"});
+  EXPECT_EQ(run.wait(), 0);
+  for (const auto& setting : settings()) {
+    EXPECT_THAT(run.out(), ::testing::HasSubstr("`" + setting.flag() + "` | `" +
+                                                setting.variable() + "`"));
+  }
+}
+
+}  // namespace
+}  // namespace cyanometer::testing

@@ -1,0 +1,253 @@
+// What comes over a connection: every way in which a request may be malformed, slow or hostile.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "tests/api/client.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string host = "Host: here\r\n";
+
+std::string post(const std::string& headers, const std::string& body = "") {
+  return "POST /v1/plan HTTP/1.1\r\n" + host + headers + "\r\n" + body;
+}
+
+std::string get(const std::string& headers = "", const std::string& target = "/healthz") {
+  return "GET " + target + " HTTP/1.1\r\n" + host + headers + "\r\n";
+}
+
+const std::string closing = "Connection: close\r\n";
+
+TEST(Framing, ABodyInChunksIsRefused) {
+  const auto answer = exchange(post("Transfer-Encoding: chunked\r\n", "2\r\n{}\r\n0\r\n\r\n"));
+  EXPECT_EQ(status_of(answer), 411);
+  EXPECT_NE(answer.find("application/problem+json"), std::string::npos);
+  EXPECT_EQ(count(answer, "HTTP/1.1"), 1u);
+}
+
+TEST(Framing, ABodyWithoutLengthIsRefused) {
+  EXPECT_EQ(status_of(exchange(post("", "{}"))), 411);
+}
+
+TEST(Framing, ALengthThatIsGivenTwiceIsRefused) {
+  EXPECT_EQ(status_of(exchange(
+                post("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"))),
+            400);
+  EXPECT_EQ(status_of(exchange(post("Content-Length: 2\r\nContent-Length: 2\r\n", "{}"))), 400);
+}
+
+TEST(Framing, ALengthThatIsNotANumberIsRefused) {
+  for (const auto* length : {"-1", "+2", "2, 2", "0x2", "2 2", ""}) {
+    EXPECT_EQ(
+        status_of(exchange(post("Content-Length: " + std::string(length) + "\r\n", "{}"))), 400)
+        << length;
+  }
+}
+
+TEST(Framing, ABodyOverTheLimitIsRefusedBeforeItIsSent) {
+  EXPECT_EQ(status_of(exchange(post("Content-Length: 99999999999\r\n"))), 413);
+  EXPECT_EQ(status_of(exchange(post("Content-Length: 99999999999999999999999\r\n"))), 413);
+}
+
+TEST(Framing, AClientThatAsksFirstIsToldToContinue) {
+  RawClient raw;
+  raw.send(post("Expect: 100-continue\r\nContent-Length: 2\r\n" + closing));
+  std::this_thread::sleep_for(100ms);
+  raw.send("{}");
+  const auto answer = raw.receive();
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 200")) << answer;
+}
+
+TEST(Framing, AnotherExpectationIsRefused) {
+  EXPECT_EQ(status_of(exchange(post("Expect: coffee\r\nContent-Length: 2\r\n", "{}"))), 417);
+}
+
+TEST(Framing, ACompressedBodyIsRefused) {
+  EXPECT_EQ(status_of(exchange(post("Content-Encoding: gzip\r\nContent-Length: 2\r\n", "{}"))),
+            415);
+}
+
+TEST(Framing, AMultipartBodyIsRefused) {
+  EXPECT_EQ(
+      status_of(exchange(post(
+          "Content-Type: multipart/form-data; boundary=x\r\nContent-Length: 2\r\n", "{}"))),
+      415);
+}
+
+TEST(Framing, AnAddressThatIsTooLongIsRefused) {
+  EXPECT_EQ(status_of(exchange(get("", "/" + std::string(9000, 'a')))), 414);
+}
+
+TEST(Framing, AnEndlessRequestLineIsRefused) {
+  EXPECT_EQ(status_of(exchange("GET /" + std::string(40000, 'a'))), 414);
+}
+
+TEST(Framing, HeadersThatAreTooLongAreRefused) {
+  EXPECT_EQ(status_of(exchange(get("X: " + std::string(40000, 'a') + "\r\n"))), 431);
+  EXPECT_EQ(status_of(exchange("GET /healthz HTTP/1.1\r\nX: " + std::string(40000, 'a'))), 431);
+}
+
+TEST(Framing, AHeadThatDoesNotEndIsGivenUp) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(status_of(exchange("GET /healthz HTTP/1.1\r\nHost: h")), 408);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 3s);
+}
+
+TEST(Framing, AHeadThatDripsIsGivenUpAllTheSame) {
+  RawClient raw;
+  std::string answer;
+  for (int i = 0; i < 15 && answer.empty(); ++i) {
+    raw.send("G");
+    answer = raw.receive(100ms);
+  }
+  EXPECT_EQ(status_of(answer), 408);
+}
+
+TEST(Framing, ABodyThatDoesNotComeIsGivenUp) {
+  EXPECT_EQ(status_of(exchange(post("Content-Length: 10\r\n", "{"))), 408);
+}
+
+TEST(Framing, MalformedHeadsAreRefused) {
+  const std::string heads[] = {
+      "GET /healthz\r\n" + host + "\r\n",
+      "GET  /healthz HTTP/1.1\r\n" + host + "\r\n",
+      "GET /health z HTTP/1.1\r\n" + host + "\r\n",
+      "G\x01T /healthz HTTP/1.1\r\n" + host + "\r\n",
+      "GET /healthz HTTP/1.1\r\n\r\n",
+      "GET /healthz HTTP/1.1\r\n" + host + host + "\r\n",
+      get("no colon\r\n"),
+      get("Space : 1\r\n"),
+      get(" folded: 1\r\n"),
+      get("X: a\x01z\r\n"),
+      get("X: a\rb\r\n"),
+      get("X: a\nContent-Length: 5\r\n"),
+      get("", "/%zz"),
+      get("", "/v1/render?a=%2"),
+  };
+  for (const auto& head : heads) EXPECT_EQ(status_of(exchange(head)), 400) << head;
+}
+
+TEST(Framing, AnotherVersionIsRefused) {
+  EXPECT_EQ(status_of(exchange("GET /healthz HTTP/2.0\r\n" + host + "\r\n")), 505);
+}
+
+TEST(Framing, TheBodyOfAGetIsNeverTakenForARequest) {
+  const auto inner = get("", "/v1/limits");
+  const auto answer =
+      exchange(get("Content-Length: " + std::to_string(inner.size()) + "\r\n") + inner);
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_EQ(count(answer, "HTTP/1.1"), 1u);
+  EXPECT_NE(answer.find("Connection: close"), std::string::npos);
+}
+
+TEST(Framing, RequestsSentTogetherAreAnsweredInOrder) {
+  const auto answer = exchange(get() + post("Content-Length: 2\r\n", "{}") + get(closing));
+  EXPECT_EQ(count(answer, "HTTP/1.1 200"), 3u);
+  EXPECT_LT(answer.find("ok\n"), answer.find("wavelengths_nm"));
+  EXPECT_LT(answer.find("wavelengths_nm"), answer.rfind("ok\n"));
+}
+
+TEST(Framing, HttpOneZeroIsClosedUnlessAskedOtherwise) {
+  const auto answer = exchange("GET /healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_NE(answer.find("Connection: close"), std::string::npos);
+}
+
+TEST(Framing, AnAbsoluteAddressIsUnderstood) {
+  EXPECT_EQ(status_of(exchange(get(closing, "http://here/healthz"))), 200);
+}
+
+TEST(Framing, RequestIdsAreEchoedOnlyWhenHarmless) {
+  EXPECT_NE(
+      exchange(get("X-Request-Id: Ab-1_z\r\n" + closing)).find("X-Request-Id: Ab-1_z\r\n"),
+      std::string::npos);
+  for (const auto& id : {std::string("a%0d%0aX-Evil: 1"), std::string("a b"), std::string("\""), std::string(65, 'a')}) {
+    const auto answer = exchange(get("X-Request-Id: " + id + "\r\n" + closing));
+    EXPECT_EQ(status_of(answer), 200);
+    EXPECT_EQ(answer.find("X-Evil"), std::string::npos);
+    EXPECT_EQ(answer.find("X-Request-Id: " + id + "\r\n"), std::string::npos);
+  }
+}
+
+TEST(Framing, RangesAreIgnored) {
+  const auto answer = exchange(get("Range: bytes=0-0,1-1\r\n" + closing));
+  EXPECT_EQ(status_of(answer), 200);
+  EXPECT_TRUE(answer.ends_with("ok\n"));
+}
+
+TEST(Framing, AnswersAreNeverCompressed) {
+  const auto answer = exchange(get("Accept-Encoding: gzip, br\r\n" + closing, "/v1/methods"));
+  EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
+}
+
+TEST(Connections, AKeptConnectionAnswersThousandsOfRequestsAtOnce) {
+  RawClient raw;
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 2000; ++i) {
+    raw.send(get());
+    ASSERT_EQ(status_of(raw.receive_one()), 200) << i;
+  }
+  // Without TCP_NODELAY each would take 40 ms.
+  EXPECT_LT((std::chrono::steady_clock::now() - start) / 2000, 5ms);
+}
+
+TEST(Connections, IdleAndDrippingClientsBlockNobody) {
+  std::vector<std::unique_ptr<RawClient>> idle;
+  for (int i = 0; i < 100; ++i) {
+    idle.push_back(std::make_unique<RawClient>());
+    if (i % 2 == 0) idle.back()->send("GET /hea");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(status_of(exchange(get(closing))), 200);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 400ms);
+}
+
+TEST(Connections, OneMoreThanThereAreThreadsIsRefused) {
+  Config config = free_port();
+  config.threads = 2;
+  Daemon daemon(config);
+  daemon.start();
+  RawClient first(daemon.port()), second(daemon.port());
+  first.send(get());
+  second.send(get());
+  EXPECT_EQ(status_of(first.receive_one()), 200);
+  EXPECT_EQ(status_of(second.receive_one()), 200);
+  RawClient third(daemon.port());
+  const auto answer = third.receive();
+  EXPECT_EQ(status_of(answer), 503);
+  EXPECT_NE(answer.find("Retry-After: 1"), std::string::npos);
+}
+
+TEST(Connections, IdleOnesMakeRoomWhereThreadsAreFew) {
+  Config config = free_port();
+  config.threads = 2;
+  Daemon daemon(config);
+  daemon.start();
+  RawClient first(daemon.port()), second(daemon.port());
+  EXPECT_EQ(first.receive(), "");
+  RawClient third(daemon.port());
+  third.send(get(closing));
+  EXPECT_EQ(status_of(third.receive()), 200);
+}
+
+TEST(Connections, APortIsNotShared) {
+  Config config = free_port();
+  config.listen = "127.0.0.1:" + std::to_string(shared_daemon().port());
+  EXPECT_THROW(Daemon{config}, std::runtime_error);
+}
+
+TEST(Connections, StoppingBeforeListeningIsNotLost) {
+  Daemon never_started(free_port());
+  never_started.stop();
+  Daemon daemon(free_port());
+  daemon.start();
+  daemon.stop();
+  EXPECT_FALSE(daemon.failed());
+}
+
+}  // namespace
+}  // namespace cyanometer::testing

@@ -1,0 +1,246 @@
+// The queue before the device: order, bounds, deadlines, clients that leave, devices that are
+// lost.
+#include "server/queue/render_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <latch>
+
+#include "tests/api/client.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+/// A job that holds the device until it is let go.
+class Hold {
+ public:
+  explicit Hold(RenderQueue& queue) {
+    thread_ = std::thread([this, &queue] {
+      queue.run({.client = "holder", .work = [this](Engine&, const Watch&) {
+                   started_.count_down();
+                   release_.wait();
+                 }});
+    });
+    started_.wait();
+  }
+  ~Hold() { let_go(); }
+  void let_go() {
+    if (!thread_.joinable()) return;
+    release_.count_down();
+    thread_.join();
+  }
+
+ private:
+  std::latch started_{1}, release_{1};
+  std::thread thread_;
+};
+
+void wait_for_depth(const RenderQueue& queue, std::size_t depth) {
+  const auto end = Clock::now() + 10s;
+  while (queue.depth() != depth && Clock::now() < end) std::this_thread::sleep_for(1ms);
+  ASSERT_EQ(queue.depth(), depth);
+}
+
+std::vector<std::string> order_of(const std::vector<std::string>& clients) {
+  RenderQueue queue({});
+  std::vector<std::string> order;
+  std::vector<std::thread> threads;
+  {
+    Hold hold(queue);
+    for (std::size_t i = 0; i < clients.size(); ++i) {
+      threads.emplace_back([&queue, &order, client = clients[i]] {
+        queue.run({.client = client,
+                   .quick = client == "quick",
+                   .work = [&](Engine&, const Watch&) { order.push_back(client); }});
+      });
+      wait_for_depth(queue, i + 1);
+    }
+  }
+  for (auto& thread : threads) thread.join();
+  return order;
+}
+
+TEST(Queue, ClientsAlternate) {
+  EXPECT_EQ(order_of({"a", "a", "a", "b", "c"}),
+            (std::vector<std::string>{"a", "b", "c", "a", "a"}));
+}
+
+TEST(Queue, QuickJobsGoFirst) {
+  EXPECT_EQ(order_of({"a", "b", "quick"}), (std::vector<std::string>{"quick", "a", "b"}));
+}
+
+TEST(Queue, FramesAliveAreBounded) {
+  RenderQueue queue({.frame_bytes = 100});
+  const auto job = [](std::size_t bytes) {
+    return Job{.client = "a", .frame_bytes = bytes, .work = [](Engine&, const Watch&) {}};
+  };
+  auto first = std::make_unique<Ticket>(queue.run(job(60)));
+  auto second = std::async(std::launch::async, [&] { queue.run(job(60)); });
+  EXPECT_EQ(second.wait_for(200ms), std::future_status::timeout);
+  first.reset();
+  EXPECT_EQ(second.wait_for(10s), std::future_status::ready);
+}
+
+TEST(Queue, AFullOneRefusesAndSaysWhenToComeBack) {
+  Config config = free_port();
+  config.queue = 1;
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  auto& queue = daemon.service().queue;
+  Hold hold(queue);
+  auto waiting = std::async(std::launch::async, [&] {
+    queue.run({.client = "a", .work = [](Engine&, const Watch&) {}});
+  });
+  wait_for_depth(queue, 1);
+  const auto answer =
+      client_of(daemon).Post("/v1/render", small_scene().dump(), "application/json");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 503);
+  EXPECT_GE(std::stoi(answer->get_header_value("Retry-After")), 1);
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
+  EXPECT_EQ(queue.counts().rejected, 1u);
+  EXPECT_EQ(client_of(daemon).Get("/healthz")->status, 200);
+  hold.let_go();
+}
+
+TEST(Queue, ADeadlineEndsWaitingAndRenderingWith504) {
+  Config config = free_port();
+  config.deadline_s = 0.3;
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  const auto render = [&](const nlohmann::json& scene) {
+    return client_of(daemon).Post("/v1/render", scene.dump(), "application/json");
+  };
+  const auto start = Clock::now();
+  const auto rendering = render(long_scene());
+  ASSERT_TRUE(rendering);
+  EXPECT_EQ(rendering->status, 504);
+  EXPECT_LT(Clock::now() - start, 3s);
+  Hold hold(daemon.service().queue);
+  const auto waiting = render(small_scene());
+  ASSERT_TRUE(waiting);
+  EXPECT_EQ(waiting->status, 504);
+  EXPECT_EQ(daemon.service().queue.counts().past_deadline, 2u);
+}
+
+/// Time from the client's leaving to the count of those who left.
+Clock::duration time_to_notice(RenderQueue& queue, RawClient& raw) {
+  const auto before = queue.counts().client_gone;
+  const auto start = Clock::now();
+  raw.close();
+  while (queue.counts().client_gone == before && Clock::now() - start < 10s) {
+    std::this_thread::sleep_for(1ms);
+  }
+  return Clock::now() - start;
+}
+
+std::string render_request(const nlohmann::json& scene) {
+  const auto body = scene.dump();
+  return "POST /v1/render HTTP/1.1\r\nHost: h\r\nContent-Length: " +
+         std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+TEST(Queue, AClientThatLeavesFreesTheDevice) {
+  auto& queue = shared_daemon().service().queue;
+  RawClient raw;
+  raw.send(render_request(long_scene()));
+  std::this_thread::sleep_for(500ms);
+  ASSERT_EQ(queue.depth(), 0u);
+  const auto noticed = time_to_notice(queue, raw);
+  RecordProperty("ms", static_cast<int>(noticed / 1ms));
+  EXPECT_LT(noticed, 1s);
+}
+
+TEST(Queue, AClientThatLeavesFreesItsPlace) {
+  auto& queue = shared_daemon().service().queue;
+  Hold hold(queue);
+  RawClient raw;
+  raw.send(render_request(small_scene()));
+  wait_for_depth(queue, 1);
+  EXPECT_LT(time_to_notice(queue, raw), 500ms);
+  EXPECT_EQ(queue.depth(), 0u);
+}
+
+TEST(Queue, ProbesAreAnsweredWhileTheDeviceWorks) {
+  Hold hold(shared_daemon().service().queue);
+  const auto start = Clock::now();
+  EXPECT_EQ(client().Get("/readyz")->status, 200);
+  EXPECT_LT(Clock::now() - start, 500ms);
+}
+
+TEST(Queue, AKnownLinkIs304WhileTheDeviceWorks) {
+  const auto* link = "/v1/render?image.width=16&image.height=8&sun.elevation_deg=7";
+  const auto tag = client().Head(link)->get_header_value("ETag");
+  Hold hold(shared_daemon().service().queue);
+  EXPECT_EQ(status_of(get_if_changed(link, tag)), 304);
+}
+
+TEST(Queue, ALostDeviceIsMadeAgainAndTheJobRetriedOnce) {
+  RenderQueue queue({});
+  int attempts = 0;
+  queue.run({.client = "a", .work = [&](Engine& engine, const Watch&) {
+               if (++attempts == 1) throw DeviceLost("as if");
+               EXPECT_FALSE(engine.device().name.empty());
+             }});
+  EXPECT_EQ(attempts, 2);
+  EXPECT_EQ(queue.counts().device_lost, 1u);
+  EXPECT_TRUE(queue.ready());
+}
+
+TEST(Queue, ADeviceThatIsLostAgainAndAgainEndsTheProcess) {
+  RenderQueue queue({});
+  const Job poison{.client = "a",
+                   .work = [](Engine&, const Watch&) { throw DeviceLost("no"); }};
+  EXPECT_THROW(queue.run(poison), DeviceUnavailable);
+  EXPECT_FALSE(queue.failed());
+  EXPECT_THROW(queue.run(poison), DeviceUnavailable);
+  EXPECT_TRUE(queue.failed());
+  EXPECT_EQ(queue.counts().device_lost, 4u);
+  EXPECT_THROW(queue.run(poison), DeviceUnavailable);
+}
+
+TEST(Queue, ADeviceThatIsNotThereIsSaid) {
+  RenderQueue queue({.engine = {.device = "no such device"}});
+  EXPECT_THROW(queue.run({.client = "a", .work = [](Engine&, const Watch&) {}}),
+               DeviceUnavailable);
+  EXPECT_TRUE(queue.failed());
+}
+
+TEST(Queue, WhatAJobThrowsReachesItsClient) {
+  RenderQueue queue({});
+  EXPECT_THROW(
+      queue.run(
+          {.client = "a",
+           .work = [](Engine&, const Watch&) { throw OverLimit("/image/width", "too wide"); }}),
+      OverLimit);
+  EXPECT_TRUE(queue.ready());
+}
+
+TEST(Draining, WhatIsInFlightIsFinished) {
+  Daemon daemon(free_port());
+  daemon.start();
+  wait_until_ready(daemon);
+  auto hold = std::make_unique<Hold>(daemon.service().queue);
+  auto answer = std::async(std::launch::async, [&] {
+    return client_of(daemon).Post("/v1/render", small_scene().dump(), "application/json");
+  });
+  wait_for_depth(daemon.service().queue, 1);
+  auto stopping = std::async(std::launch::async, [&] { daemon.stop(); });
+  EXPECT_EQ(stopping.wait_for(200ms), std::future_status::timeout);
+  EXPECT_FALSE(daemon.service().ready());
+  hold.reset();
+  const auto finished = answer.get();
+  ASSERT_TRUE(finished);
+  EXPECT_EQ(finished->status, 200);
+  EXPECT_EQ(finished->get_header_value("Connection"), "close");
+  EXPECT_EQ(stopping.wait_for(5s), std::future_status::ready);
+}
+
+}  // namespace
+}  // namespace cyanometer::testing

@@ -1,0 +1,475 @@
+// Each route: what it answers, and how it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "engine/engine.h"
+#include "engine/image/encode.h"
+#include "engine/scene/document.h"
+#include "server/http/accept.h"
+#include "server/routes/json_answer.h"
+#include "server/routes/route.h"
+#include "tests/api/client.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::string small_link = "/v1/render?image.width=16&image.height=8";
+
+httplib::Result post(const std::string& path, const json& body,
+                     const httplib::Headers& headers = {}) {
+  return client().Post(path, headers, body.dump(), "application/json");
+}
+
+void expect_problem(const httplib::Result& answer, int status,
+                    const std::string& pointer = "") {
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, status) << answer->body;
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
+  const auto problem = json::parse(answer->body);
+  EXPECT_EQ(problem.at("status"), status);
+  EXPECT_FALSE(problem.at("title").get<std::string>().empty());
+  EXPECT_FALSE(problem.at("detail").get<std::string>().empty());
+  if (!pointer.empty()) {
+    EXPECT_EQ(problem.at("pointer"), pointer);
+  }
+}
+
+// ---- render
+// ---------------------------------------------------------------------------------------
+
+TEST(Render, ASceneBecomesAPngThatSaysHowItWasMade) {
+  const auto answer = post("/v1/render", small_scene());
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "image/png");
+  EXPECT_TRUE(answer->body.starts_with("\x89PNG"));
+  EXPECT_FALSE(answer->get_header_value("Cyanometer-Method").empty());
+  EXPECT_THAT(answer->get_header_value("Cyanometer-Options"), ::testing::HasSubstr("="));
+  EXPECT_GE(std::stod(answer->get_header_value("Cyanometer-Error")), 0);
+  EXPECT_THAT(answer->get_header_value("Cyanometer-Met"), ::testing::AnyOf("true", "false"));
+  EXPECT_NO_THROW((void)std::stod(answer->get_header_value("Cyanometer-Exposure")));
+  EXPECT_EQ(answer->get_header_value("Cyanometer-Atmosphere"),
+            atmosphere_key(read_scene(small_scene())));
+  EXPECT_THAT(answer->get_header_value("ETag"), ::testing::MatchesRegex("\"[0-9a-f]{32}\""));
+  EXPECT_THAT(answer->get_header_value("Server-Timing"),
+              ::testing::MatchesRegex("queue;dur=[0-9.]+, prepare;dur=[0-9.]+, "
+                                      "render;dur=[0-9.]+, encode;dur=[0-9.]+"));
+}
+
+TEST(Render, TheFormatOfTheSceneBeatsTheAcceptHeader) {
+  auto scene = small_scene();
+  scene["image"]["format"] = "npy";
+  const auto answer = post("/v1/render", scene, {{"Accept", "image/png"}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/x-npy");
+  EXPECT_TRUE(answer->body.starts_with("\x93NUMPY"));
+}
+
+TEST(Render, TheAcceptHeaderChoosesTheFormat) {
+  for (const auto& each : encodings()) {
+    const std::string type(each.media_type);
+    const auto answer = post("/v1/render", small_scene(), {{"Accept", type}});
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 200) << answer->body;
+    EXPECT_EQ(answer->get_header_value("Content-Type"), type);
+  }
+}
+
+TEST(Render, WhatNobodyCanMakeIsNotAcceptable) {
+  const auto answer =
+      post("/v1/render", small_scene(), {{"Accept", "image/webp, image/png;q=0"}});
+  expect_problem(answer, 406);
+  EXPECT_THAT(json_of(answer).at("allowed"), ::testing::HasSubstr("image/png"));
+}
+
+TEST(Render, ABodyIsJsonWhateverItsTypeSays) {
+  for (const auto* type : {"application/x-www-form-urlencoded", "text/plain", "image/png"}) {
+    auto scene = small_scene();
+    scene["method"] = {{"name", "auto"}};
+    const auto answer =
+        client().Post("/v1/render", scene.dump() + std::string(9000, ' '), type);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 200) << answer->body;
+  }
+}
+
+TEST(Render, ALinkMeansTheSameAsTheBody) {
+  const auto link = client().Get(small_link + "&sun.elevation_deg=4&preset=earth");
+  auto scene = small_scene();
+  scene["sun"] = {{"elevation_deg", 4}};
+  const auto body = post("/v1/render", scene);
+  ASSERT_TRUE(link);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(link->status, 200) << link->body;
+  EXPECT_EQ(link->body, body->body);
+  EXPECT_EQ(link->get_header_value("ETag"), body->get_header_value("ETag"));
+}
+
+TEST(Render, APathThatIsGivenTwiceIsRefused) {
+  expect_problem(client().Get(small_link + "&sun.elevation_deg=4&sun.elevation_deg=4"), 400);
+}
+
+TEST(Render, AFreshLinkIsAnswered304WithoutRendering) {
+  const auto first = client().Get(small_link);
+  ASSERT_TRUE(first);
+  const auto tag = first->get_header_value("ETag");
+  for (const auto& asked : {tag, "W/" + tag, "\"other\", " + tag, std::string("*")}) {
+    const auto again = get_if_changed(small_link, asked);
+    EXPECT_EQ(status_of(again), 304) << asked;
+    EXPECT_TRUE(again.ends_with("\r\n\r\n"));
+    EXPECT_THAT(again, ::testing::HasSubstr("ETag: " + tag));
+    EXPECT_EQ(count(again, "Server-Timing"), 0u);
+    EXPECT_EQ(count(again, "Content-Length"), 0u);
+  }
+}
+
+TEST(Render, AnotherSceneHasAnotherTag) {
+  const auto first = client().Get(small_link);
+  ASSERT_TRUE(first);
+  const auto other = client().Get(small_link + "&sun.elevation_deg=4",
+                                  {{"If-None-Match", first->get_header_value("ETag")}});
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->status, 200);
+  EXPECT_NE(other->get_header_value("ETag"), first->get_header_value("ETag"));
+}
+
+TEST(Render, HeadSaysWhatGetWouldWithoutAFrame) {
+  const auto head = client().Head(small_link);
+  const auto get = client().Get(small_link);
+  ASSERT_TRUE(head);
+  ASSERT_TRUE(get);
+  EXPECT_EQ(head->status, 200);
+  for (const auto* name : {"ETag", "Content-Type", "Cyanometer-Method", "Cache-Control"}) {
+    EXPECT_EQ(head->get_header_value(name), get->get_header_value(name)) << name;
+  }
+  EXPECT_TRUE(head->body.empty());
+}
+
+TEST(Render, ATimeBudgetIsNeverStored) {
+  auto scene = small_scene();
+  scene["method"] = {{"max_ms", 1000}};
+  const auto answer = post("/v1/render", scene);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->get_header_value("Cache-Control"), "no-store");
+}
+
+TEST(Render, AnEmptyBodyIsRefused) {
+  expect_problem(client().Post("/v1/render", "", "application/json"), 400);
+}
+
+TEST(Render, ABodyThatIsNotJsonIsRefused) {
+  for (const auto* body : {"{", "nan", "{\"a\":1,\"a\":1}", "\xff", "{} {}", "[]", "3"}) {
+    expect_problem(client().Post("/v1/render", body, "application/json"), 400);
+  }
+}
+
+TEST(Render, ADeepBodyIsRefused) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  expect_problem(client().Post("/v1/render", deep, "application/json"), 400);
+}
+
+TEST(Render, ARefusedMemberIsNamed) {
+  const auto answer = post("/v1/render", {{"planet", {{"radius_km", -1}}}});
+  expect_problem(answer, 400, "/planet/radius_km");
+  EXPECT_EQ(json_of(answer).at("given"), "-1");
+  EXPECT_FALSE(json_of(answer).at("allowed").get<std::string>().empty());
+}
+
+TEST(Render, AFrameOverTheLimitsIsRefusedWithItsPointer) {
+  expect_problem(post("/v1/render", {{"image", {{"width", 8192}, {"height", 4096}}}}), 422,
+                 "/image/width");
+}
+
+TEST(Render, AFrameThatNeedsTooMuchMemoryIsRefused) {
+  json scene{
+      {"image",
+       {{"width", 4096}, {"height", 4096}, {"format", "exr"}, {"channels", "spectral"}}}};
+  for (int i = 0; i < 64; ++i) scene["spectrum"]["wavelengths_nm"].push_back(400 + i);
+  scene["spectrum"]["colour"] = "cie";
+  expect_problem(post("/v1/render", scene), 422, "/image");
+}
+
+// ---- radiance and plan
+// ----------------------------------------------------------------------------
+
+TEST(Radiance, EachDirectionHasAValueForEachWavelength) {
+  const json body{{"scene", {{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}}}},
+                  {"directions",
+                   {{{"elevation_deg", 90}, {"azimuth_deg", 0}},
+                    {{"elevation_deg", -90}, {"azimuth_deg", -360}}}},
+                  {"irradiance", true}};
+  const auto answer = json_of(post("/v1/radiance", body));
+  EXPECT_EQ(answer.at("wavelengths_nm"), json({680, 550, 440}));
+  ASSERT_EQ(answer.at("radiance").size(), 2u);
+  ASSERT_EQ(answer.at("transmittance").size(), 2u);
+  for (const auto& row : answer.at("radiance")) {
+    ASSERT_EQ(row.size(), 3u);
+    for (const auto& value : row) EXPECT_GT(value.get<double>(), 0);
+  }
+  EXPECT_TRUE(answer.contains("standard_error"));
+  EXPECT_FALSE(answer.at("method").get<std::string>().empty());
+  EXPECT_TRUE(answer.at("error").is_number());
+  for (const auto* flux : {"direct", "diffuse_down", "diffuse_up"}) {
+    EXPECT_EQ(answer.at("irradiance").at(flux).size(), 3u);
+  }
+}
+
+TEST(Radiance, TheBodyIsReadStrictly) {
+  const json up{{"elevation_deg", 90}, {"azimuth_deg", 0}};
+  const auto with = [](const char* name, const json& value) {
+    json direction{{"elevation_deg", 1}, {"azimuth_deg", 1}};
+    direction[name] = value;
+    return json{{"directions", {direction}}};
+  };
+  const std::vector<std::pair<json, std::string>> cases{
+      {json::object(), "/directions"},
+      {{{"directions", json::array()}}, "/directions"},
+      {{{"directions", 3}}, "/directions"},
+      {with("elevation_deg", 90.5), "/directions/0/elevation_deg"},
+      {with("azimuth_deg", -361), "/directions/0/azimuth_deg"},
+      {with("azimuth_deg", "1"), "/directions/0/azimuth_deg"},
+      {with("roll/deg", 1), "/directions/0/roll~1deg"},
+      {{{"directions", {up, 3}}}, "/directions/1"},
+      {{{"directions", {{{"azimuth_deg", 1}}}}}, "/directions/0/elevation_deg"},
+      {{{"directions", {up}}, {"irradiance", 1}}, "/irradiance"},
+      {{{"directions", {up}}, {"more", 1}}, "/more"},
+      {{{"directions", {up}}, {"scene", {{"sun", {{"elevation_deg", 100}}}}}},
+       "/scene/sun/elevation_deg"},
+  };
+  for (const auto& [body, pointer] : cases) {
+    SCOPED_TRACE(body.dump());
+    expect_problem(post("/v1/radiance", body), 400, pointer);
+  }
+}
+
+TEST(Radiance, MoreThan4096DirectionsAreOverTheLimit) {
+  json body{{"directions", json::array()}};
+  for (int i = 0; i < 4097; ++i) {
+    body["directions"].push_back({{"elevation_deg", 45}, {"azimuth_deg", 0}});
+  }
+  expect_problem(post("/v1/radiance", body), 422, "/directions");
+  body["directions"].erase(0);
+  const auto most = post("/v1/radiance", body);
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->status, 200) << most->body.substr(0, 300);
+}
+
+TEST(Plan, SaysWhatWouldBeDone) {
+  const auto answer = json_of(post("/v1/plan", small_scene()));
+  EXPECT_EQ(answer.at("scene").at("image").at("width"), 16);
+  EXPECT_EQ(read_scene(answer.at("scene")), read_scene(small_scene()));
+  EXPECT_FALSE(answer.at("method").get<std::string>().empty());
+  EXPECT_TRUE(answer.at("options").is_object());
+  EXPECT_GE(answer.at("wavelengths_nm").size(), 1u);
+  EXPECT_GE(answer.at("error").get<double>(), 0);
+  EXPECT_GE(answer.at("ms").get<double>(), 0);
+  EXPECT_TRUE(answer.at("met").is_boolean());
+  EXPECT_FALSE(answer.at("why").get<std::string>().empty());
+  EXPECT_EQ(answer.at("atmosphere"), atmosphere_key(read_scene(small_scene())));
+}
+
+TEST(Plan, ALinkMeansTheSameAsTheBody) {
+  EXPECT_EQ(json_of(client().Get("/v1/plan?image.width=16&image.height=8")),
+            json_of(post("/v1/plan", small_scene())));
+}
+
+TEST(Plan, IsTheSameAsThatOfTheFrame) {
+  const auto plan = json_of(post("/v1/plan", small_scene()));
+  const auto frame = post("/v1/render", small_scene());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->get_header_value("Cyanometer-Method"), plan.at("method"));
+}
+
+// ---- lists, documents, operations
+// -----------------------------------------------------------------
+
+TEST(Lists, MethodsComeWithTheirOptions) {
+  const auto list = json_of(client().Get("/v1/methods")).at("methods");
+  ASSERT_EQ(list.size(), methods().size());
+  for (const auto& method : list) {
+    for (const auto& option : method.at("options")) {
+      EXPECT_LE(option.at("minimum").get<double>(), option.at("default").get<double>());
+      EXPECT_GE(option.at("maximum").get<double>(), option.at("default").get<double>());
+    }
+  }
+}
+
+TEST(Lists, PresetsCiteTheirSourcesAndAreDocuments) {
+  const auto list = json_of(client().Get("/v1/presets")).at("presets");
+  ASSERT_EQ(list.size(), presets().size());
+  for (const auto& preset : list) {
+    EXPECT_FALSE(preset.at("title").get<std::string>().empty());
+    EXPECT_FALSE(preset.at("source").get<std::string>().empty());
+    EXPECT_TRUE(preset.at("scene").is_object());
+  }
+}
+
+TEST(Lists, TheLimitsAreThoseOfTheContract) {
+  const auto limits = json_of(client().Get("/v1/limits"));
+  EXPECT_GE(limits.at("pixels"), 4096 * 4096);
+  EXPECT_EQ(limits.at("wavelengths"), 64);
+  EXPECT_EQ(limits.at("directions"), 4096);
+  EXPECT_EQ(limits.at("deadline_s"), 600);
+  EXPECT_EQ(limits.at("queue"), 64);
+  EXPECT_GT(limits.at("body_bytes"), 0);
+  EXPECT_GT(limits.at("frame_bytes"), 0);
+}
+
+TEST(Lists, TheSchemaIsThatOfTheDocument) {
+  EXPECT_EQ(json_of(client().Get("/v1/schema")), scene_schema());
+}
+
+TEST(OpenApi, ListsEveryRouteOfTheTableAndNothingElse) {
+  const auto document = json_of(client().Get("/openapi.json"));
+  EXPECT_EQ(document.at("openapi"), "3.1.0");
+  std::set<std::string> listed, there;
+  for (const auto& [path, operations] : document.at("paths").items()) {
+    for (const auto& [method, operation] : operations.items()) {
+      listed.insert(method + path);
+      EXPECT_TRUE(operation.at("responses").contains("200"));
+      EXPECT_FALSE(operation.at("summary").get<std::string>().empty());
+    }
+  }
+  for (const auto& route : routes())
+    there.insert((route.method == "GET" ? "get" : "post") + route.path);
+  EXPECT_EQ(listed, there);
+}
+
+TEST(OpenApi, EveryReferenceLeadsSomewhere) {
+  const auto document = json_of(client().Get("/openapi.json"));
+  const auto text = document.at("paths").dump();
+  for (auto at = text.find("#/components"); at != std::string::npos;
+       at = text.find("#/components", at + 1)) {
+    const auto pointer = text.substr(at + 1, text.find('"', at) - at - 1);
+    EXPECT_TRUE(document.contains(json::json_pointer(pointer))) << pointer;
+  }
+}
+
+TEST(Operations, HealthReadinessAndMetricsAreAnswered) {
+  EXPECT_EQ(client().Get("/healthz")->status, 200);
+  EXPECT_EQ(client().Get("/readyz")->status, 200);
+  post("/v1/render", small_scene());
+  const auto metrics = client().Get("/metrics");
+  ASSERT_TRUE(metrics);
+  for (const auto* name :
+       {"cyanometer_http_requests_total{route=\"/v1/render\",method=\"POST\",status=\"200\"}",
+        "cyanometer_http_request_duration_seconds_bucket", "cyanometer_queue_depth 0",
+        "cyanometer_jobs_total", "cyanometer_rejected_total", "cyanometer_cancelled_total",
+        "cyanometer_build_info{version=",
+        "cyanometer_stage_duration_seconds_sum{stage=\"encode\"}", "cyanometer_ready 1"}) {
+    EXPECT_NE(metrics->body.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(Operations, AListenerOfTheirOwnAnswersThemAlone) {
+  Config config = free_port();
+  config.ops_listen = "127.0.0.1:0";
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  httplib::Client ops("127.0.0.1", daemon.ops_port());
+  EXPECT_EQ(ops.Get("/healthz")->status, 200);
+  EXPECT_EQ(ops.Get("/readyz")->status, 200);
+  EXPECT_EQ(ops.Get("/metrics")->status, 200);
+  EXPECT_EQ(ops.Get("/v1/limits")->status, 404);
+}
+
+TEST(Page, IsServedFromTheBinaryUnderAStrictPolicy) {
+  const auto page = client().Get("/");
+  ASSERT_TRUE(page);
+  ASSERT_EQ(page->status, 200);
+  EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
+  EXPECT_THAT(page->get_header_value("Content-Security-Policy"),
+              ::testing::HasSubstr("default-src 'none'; script-src 'self'"));
+  EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
+  EXPECT_EQ(client().Get("/index.html")->body, page->body);
+  EXPECT_EQ(status_of(get_if_changed("/", page->get_header_value("ETag"))), 304);
+}
+
+TEST(Page, NothingOutsideItIsServed) {
+  for (const auto* path : {"/../CMakeLists.txt", "/%2e%2e/etc/passwd", "//etc/passwd"}) {
+    expect_problem(client().Get(path), 404);
+  }
+}
+
+// ---- methods and addresses
+// ------------------------------------------------------------------------
+
+TEST(Addresses, UnknownOnesAreNotFound) {
+  expect_problem(client().Get("/v1/nothing"), 404);
+  expect_problem(client().Post("/nothing", "{}", "application/json"), 404);
+}
+
+TEST(Addresses, WhatThisVersionLacksSaysSo) {
+  for (const auto* path : {"/v1/stream", "/v1/composite", "/v1/compare", "/v1/explain"}) {
+    const auto answer = client().Post(path, "{}", "application/json");
+    expect_problem(answer, 404);
+    EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr("version"));
+  }
+}
+
+TEST(Addresses, AWrongMethodIsToldTheRightOnes) {
+  const auto wrong = client().Get("/v1/radiance");
+  expect_problem(wrong, 405);
+  EXPECT_EQ(wrong->get_header_value("Allow"), "POST, OPTIONS");
+  expect_problem(client().Delete("/v1/render"), 405);
+  EXPECT_EQ(client().Delete("/v1/render")->get_header_value("Allow"),
+            "GET, HEAD, POST, OPTIONS");
+}
+
+TEST(Addresses, AnUnknownMethodIsNotAllowed) {
+  const auto answer =
+      exchange("BREW /v1/render HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n");
+  EXPECT_EQ(status_of(answer), 405);
+}
+
+TEST(Addresses, OptionsSayWhatIsAllowed) {
+  const auto answer = client().Options("/v1/limits");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 204);
+  EXPECT_EQ(answer->get_header_value("Allow"), "GET, HEAD, OPTIONS");
+}
+
+TEST(Addresses, HeadHasTheLengthOfGet) {
+  const auto head = client().Head("/v1/limits");
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->status, 200);
+  EXPECT_EQ(head->get_header_value("Content-Length"),
+            std::to_string(client().Get("/v1/limits")->body.size()));
+}
+
+TEST(Errors, NameTheRequest) {
+  const auto answer = client().Get("/v1/nothing", {{"X-Request-Id", "abc"}});
+  EXPECT_EQ(json_of(answer).at("instance"), "urn:cyanometer:request:abc");
+}
+
+// ---- parts
+// ----------------------------------------------------------------------------------------
+
+TEST(Accept, TheClosestRangeDecides) {
+  const std::vector<std::string_view> types{"image/png", "image/x-exr", "image/jpeg"};
+  EXPECT_EQ(preferred("*/*", types), 0u);
+  EXPECT_EQ(preferred("image/*;q=0.5, image/jpeg", types), 2u);
+  EXPECT_EQ(preferred("image/*, image/png;q=0", types), 1u);
+  EXPECT_EQ(preferred("*/*;q=0.1, image/x-exr;q=0.2", types), 1u);
+  EXPECT_EQ(preferred("IMAGE/JPEG ; q=0.3", types), 2u);
+  EXPECT_EQ(preferred("text/html", types), std::nullopt);
+  EXPECT_EQ(preferred("image/png;q=0", types), std::nullopt);
+}
+
+TEST(EntityTag, PartsDoNotRunTogether) {
+  EXPECT_NE(entity_tag({"ab", "c"}), entity_tag({"a", "bc"}));
+  EXPECT_EQ(entity_tag({"ab", "c"}), entity_tag({"ab", "c"}));
+}
+
+TEST(EntityTag, IsFnv1aWith128Bits) {
+  // The published value of the empty text is the offset basis.
+  EXPECT_EQ(entity_tag({}), "\"6c62272e07bb014262b821756295c58d\"");
+}
+
+}  // namespace
+}  // namespace cyanometer::testing
