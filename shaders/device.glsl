@@ -29,7 +29,7 @@ const int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS;
 
 #include "physics/layout.glsl"
 
-layout(std430, binding = 0) restrict readonly buffer SceneBuffer { SceneData scene; };
+layout(std430, binding = 0) restrict readonly buffer SceneBuffer { SceneData stored_scene; };
 layout(std430, binding = 1) restrict readonly buffer MediaBuffer { MediumData media[]; };
 // By wavelength, in groups of four: ground albedo, limb-darkening exponent, then for each constituent
 // extinction, scattering (1/km where its profile is 1) and depolarisation gamma.
@@ -42,12 +42,16 @@ layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_va
 layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
 layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
 
-// Coefficients are read once into registers: a gather for each sample costs more than the exponential.
+// What is used in loops is read once into registers: on software devices a load from a buffer costs more
+// than an exponential. A shader's main() begins with load_scene(), and load_media() where it marches.
+SceneData scene;
 MediumData medium_[MEDIA_SIZE];
 Vec4 extinction_[MEDIA_GROUPS_SIZE];
 Vec4 scattering_[MEDIA_GROUPS_SIZE];
 
-void load_scene() {
+void load_scene() { scene = stored_scene; }
+
+void load_media() {
   for (int c = 0; c < MEDIA; ++c) {
     medium_[c] = media[c];
     for (int group = 0; group < GROUPS; ++group) {

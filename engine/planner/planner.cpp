@@ -33,7 +33,7 @@ constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 /// Evaluations of the optical depth a millisecond on two cores of a software device; the plan
 /// may not depend on what is measured while it runs, or equal requests would have unequal
 /// answers.
-constexpr double nominal_evaluations_per_ms = 2e6;
+constexpr double nominal_evaluations_per_ms = 7e5;
 
 MethodOptions options_of(Samples samples) {
   return {{"view_samples", samples.view}, {"light_samples", samples.light}};

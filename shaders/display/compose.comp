@@ -27,6 +27,7 @@ void main() {
   int i = int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= n) return;
+  load_scene();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_from_camera(pixel.direction);
   bool sky = pixel.inside && !path.meets_ground;

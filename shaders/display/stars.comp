@@ -28,6 +28,7 @@ void main() {
   if (s >= push.stars) return;
   int star = push.first_star + s;
   int at = star_pixels[star];
+  load_scene();
   PixelRay pixel = pixel_ray(at);
   if (!pixel.inside || path_from_camera(pixel.direction).meets_ground) return;
   int i = at - push.first_ray;

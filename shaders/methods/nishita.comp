@@ -20,6 +20,7 @@ void main() {
   int n = push.rays_in_tile;
   if (i >= n) return;
   load_scene();
+  load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_from_camera(pixel.direction);
   if (!pixel.inside) {
