@@ -112,7 +112,8 @@ json document() {
          "every answer states its error."}}},
       {"paths", paths},
       {"components",
-       {{"schemas", {{"Scene", embedded_scene_schema()}, {"ProblemDetails", problem_schema()}}}}}};
+       {{"schemas",
+         {{"Scene", embedded_scene_schema()}, {"ProblemDetails", problem_schema()}}}}}};
 }
 
 }  // namespace openapi

@@ -165,7 +165,8 @@ TEST(Framing, RequestIdsAreEchoedOnlyWhenHarmless) {
   EXPECT_NE(
       exchange(get("X-Request-Id: Ab-1_z\r\n" + closing)).find("X-Request-Id: Ab-1_z\r\n"),
       std::string::npos);
-  for (const auto& id : {std::string("a%0d%0aX-Evil: 1"), std::string("a b"), std::string("\""), std::string(65, 'a')}) {
+  for (const auto& id : {std::string("a%0d%0aX-Evil: 1"), std::string("a b"), std::string("\""),
+                         std::string(65, 'a')}) {
     const auto answer = exchange(get("X-Request-Id: " + id + "\r\n" + closing));
     EXPECT_EQ(status_of(answer), 200);
     EXPECT_EQ(answer.find("X-Evil"), std::string::npos);
