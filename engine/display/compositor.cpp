@@ -75,8 +75,8 @@ std::span<const float> FrameStore::samples(std::size_t group, std::size_t k) con
 
 double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
   constexpr double middle_grey = 0.18;
-  // What is 8 stops below the mean is black in the picture however it is exposed: night sides and
-  // grounds in the shade don't make the rest too bright.
+  // What is 8 stops below the mean is black in the picture however it is exposed: night sides
+  // and grounds in the shade don't make the rest too bright.
   constexpr double black = 1.0 / 256;
   // A sample of the pixels is as good: their mean varies far less than an eye can tell.
   std::size_t step = std::max<std::size_t>(luminance.size() / 65536, 1) | 1;

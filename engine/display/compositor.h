@@ -27,7 +27,8 @@ struct FrameStore {
 
 /// Exposure at which the geometric mean of the luminance is shown as middle grey; 0 of a black
 /// frame.
-/// @param luminance  of each pixel; what is not positive, or black beside the rest, does not count
+/// @param luminance  of each pixel; what is not positive, or black beside the rest, does not
+/// count
 /// @param white_card  luminance that is shown as 1 at exposure 0
 double automatic_exposure_ev(std::span<const float> luminance, double white_card);
 

@@ -76,7 +76,8 @@ struct Physics {
   Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
 
-// clang-format off: in the order in which they build up
+// In the order in which they build up.
+// clang-format off
 #include "shaders/physics/constants.glsl"
 #include "shaders/physics/sphere.glsl"
 #include "shaders/physics/profile.glsl"
@@ -85,7 +86,7 @@ struct Physics {
 #include "shaders/physics/camera.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
-// clang-format on
+  // clang-format on
 };
 
 #pragma GCC diagnostic pop

@@ -171,11 +171,11 @@ Plan make_plan(const PlanInputs& inputs) {
   bool automatic = asked.name == "auto";
   double missing = multiple_scattering_bound(inputs.scene);
   // Beside what the method leaves out, a tenth of it more would not be noticed.
-  double tolerance =
-      std::max(automatic ? asked.max_error.value_or(0.003) : 0.02, missing / 5);
+  double asked_for = automatic ? asked.max_error.value_or(0.003) : 0.02;
+  double tolerance = std::max(asked_for, missing / 5);
   Plan plan;
   plan.method = automatic ? "nishita" : asked.name;
-  Wavelengths wavelengths = choose_wavelengths(inputs, tolerance / 4);
+  Wavelengths wavelengths = choose_wavelengths(inputs, asked_for / 4);
   plan.wavelengths_nm = wavelengths.nm;
   Choice choice{};
   if (automatic) {

@@ -72,8 +72,8 @@ class Nishita final : public Method {
 
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
-    // Whole marches in one dispatch where they fit: each part of one costs a ray its set-up again.
-    // Enough rays to keep a device busy, and a tile that stays in the processor's cache.
+    // Whole marches in one dispatch where they fit: each part of one costs a ray its set-up
+    // again. Enough rays to keep a device busy, and a tile that stays in the processor's cache.
     constexpr std::int64_t fewest = 1024, most = 1 << 16;
     March march = march_of(scene, options);
     std::int64_t samples = std::int64_t{march.view} * march.suns * march.light;

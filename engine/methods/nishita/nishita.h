@@ -1,5 +1,5 @@
-// Single scattering by a nested march [Nishita, Sirai, Tadamura and Nakamae 1993]: shaders/methods/
-// nishita.glsl.
+// Single scattering by a nested march [Nishita, Sirai, Tadamura and Nakamae 1993]:
+// shaders/methods/ nishita.glsl.
 #pragma once
 
 #include "engine/methods/method.h"
