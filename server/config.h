@@ -17,7 +17,7 @@ struct Config {
   int queue = 64;
   double deadline_s = 600;
   double drain_s = 0;
-  double max_pixels = 4096. * 4096.;
+  int max_pixels = 4096 * 4096;
   int max_wavelengths = 64;
   double max_body_mb = 4;
   double frame_memory_mb = 2048;

@@ -21,9 +21,6 @@ void say(const std::string& message) { std::cerr << "cyanometer: " << message <<
 
 int refuse(const SceneError& error) {
   say("the scene is refused: " + std::string(error.what()));
-  if (!error.pointer.empty()) std::cerr << "  at       " << error.pointer << "\n";
-  if (!error.given.empty()) std::cerr << "  given    " << error.given << "\n";
-  if (!error.allowed.empty()) std::cerr << "  allowed  " << error.allowed << "\n";
   return exit_refused;
 }
 

@@ -21,7 +21,9 @@ void add_setting(CLI::App& command, Config& config, const Setting& setting) {
         if (!setting.choices.empty()) {
           option->check(CLI::IsMember(setting.choices));
         } else if constexpr (!std::is_same_v<decltype(member), std::string Config::*>) {
-          option->check(CLI::Range(setting.minimum, setting.maximum));
+          using Number = std::remove_reference_t<decltype(config.*member)>;
+          option->check(CLI::Range(static_cast<Number>(setting.minimum),
+                                   static_cast<Number>(setting.maximum)));
         }
       },
       setting.member);

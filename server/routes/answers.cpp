@@ -10,11 +10,18 @@ namespace {
 
 using nlohmann::json;
 
+/// In the words in which the scene's own members are refused.
 [[noreturn]] void refuse(const std::string& pointer, const json& given,
-                         const std::string& allowed, const std::string& what) {
+                         const std::string& allowed) {
   std::string text = given.dump(-1, ' ', false, json::error_handler_t::replace);
   if (text.size() > 80) text = text.substr(0, 77) + "...";
-  throw SceneError(pointer, text, allowed, what);
+  const std::string place = pointer.empty() ? "the document" : pointer;
+  throw SceneError(pointer, text, allowed,
+                   place + " must be " + allowed + ", not " + text + ".");
+}
+
+[[noreturn]] void miss(const std::string& pointer, const std::string& allowed) {
+  throw SceneError(pointer, "", allowed, pointer + " is missing: it must be " + allowed + ".");
 }
 
 /// RFC 6901: a name as part of a pointer.
@@ -28,11 +35,11 @@ void check_members(const json& object, const std::string& pointer,
                    const std::vector<std::string>& known) {
   std::string allowed;
   for (const auto& name : known) allowed += (allowed.empty() ? "" : ", ") + name;
-  if (!object.is_object())
-    refuse(pointer, object, "an object with " + allowed, "not an object");
-  for (const auto& [name, value] : object.items()) {
+  if (!object.is_object()) refuse(pointer, object, "an object with " + allowed);
+  for (const auto& [name, unused] : object.items()) {
     if (std::ranges::find(known, name) == known.end()) {
-      refuse(pointer + "/" + escaped(name), value, allowed, "there is no such member");
+      const std::string at = pointer + "/" + escaped(name);
+      throw SceneError(at, "", allowed, at + " is not a member; there are " + allowed + ".");
     }
   }
 }
@@ -42,14 +49,10 @@ double read_angle(const json& direction, const std::string& pointer, const std::
   const std::string allowed = "a number from " + std::to_string(static_cast<int>(-limit)) +
                               " to " + std::to_string(static_cast<int>(limit));
   const auto found = direction.find(name);
-  if (found == direction.end()) {
-    throw SceneError(pointer + "/" + name, "", allowed, "a direction needs " + name);
-  }
-  if (!found->is_number()) refuse(pointer + "/" + name, *found, allowed, "not a number");
+  if (found == direction.end()) miss(pointer + "/" + name, allowed);
+  if (!found->is_number()) refuse(pointer + "/" + name, *found, allowed);
   const double value = found->get<double>();
-  if (!(std::abs(value) <= limit)) {
-    refuse(pointer + "/" + name, *found, allowed, "out of range");
-  }
+  if (!(std::abs(value) <= limit)) refuse(pointer + "/" + name, *found, allowed);
   return value;
 }
 
@@ -58,8 +61,8 @@ std::vector<Direction> read_directions(const json& document) {
   const std::string allowed =
       "a list of 1 to " + std::to_string(most_directions) + " directions";
   const auto found = document.find("directions");
-  if (found == document.end()) throw SceneError(pointer, "", allowed, "directions are missing");
-  if (!found->is_array() || found->empty()) refuse(pointer, *found, allowed, "not such a list");
+  if (found == document.end()) miss(pointer, allowed);
+  if (!found->is_array() || found->empty()) refuse(pointer, *found, allowed);
   if (found->size() > most_directions) {
     throw OverLimit(pointer, std::to_string(found->size()) + " directions are more than " +
                                  std::to_string(most_directions));
@@ -95,13 +98,15 @@ RadianceRequest read_radiance_request(const json& document) {
   try {
     out.scene = read_scene(document.value("scene", json::object()));
   } catch (const SceneError& error) {
-    throw SceneError("/scene" + error.pointer, error.given, error.allowed, error.what());
+    const std::string what = error.what();
+    throw SceneError("/scene" + error.pointer, error.given, error.allowed,
+                     what.starts_with('/') ? "/scene" + what : what);
   }
   out.directions = read_directions(document);
   const auto irradiance = document.find("irradiance");
   if (irradiance != document.end()) {
     if (!irradiance->is_boolean()) {
-      refuse("/irradiance", *irradiance, "true or false", "not a boolean");
+      refuse("/irradiance", *irradiance, "true or false");
     }
     out.irradiance = irradiance->get<bool>();
   }

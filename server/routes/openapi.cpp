@@ -79,7 +79,7 @@ json responses(const json& content, std::initializer_list<int> problems) {
         {"description", status_phrase(status)},
         {"content",
          {{"application/problem+json",
-           {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+           {{"schema", {{"$ref", "#/components/schemas/ProblemDetails"}}}}}}}};
   }
   return out;
 }
@@ -112,7 +112,8 @@ json document() {
          "every answer states its error."}}},
       {"paths", paths},
       {"components",
-       {{"schemas", {{"Scene", embedded_scene_schema()}, {"Problem", problem_schema()}}}}}};
+       {{"schemas",
+         {{"Scene", embedded_scene_schema()}, {"ProblemDetails", problem_schema()}}}}}};
 }
 
 }  // namespace openapi

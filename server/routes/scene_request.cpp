@@ -87,11 +87,10 @@ void check_frame(const Scene& scene, const Config& config) {
   check_wavelengths(scene, config);
   const double pixels = static_cast<double>(scene.image.width) * scene.image.height;
   if (pixels > config.max_pixels) {
-    throw OverLimit("/image/width",
-                    std::to_string(scene.image.width) + " x " +
-                        std::to_string(scene.image.height) + " pixels are more than the " +
-                        std::to_string(static_cast<std::int64_t>(config.max_pixels)) +
-                        " of this server");
+    throw OverLimit("/image/width", std::to_string(scene.image.width) + " x " +
+                                        std::to_string(scene.image.height) +
+                                        " pixels are more than the " +
+                                        std::to_string(config.max_pixels) + " of this server");
   }
   if (frame_bytes(scene) > config.frame_bytes()) {
     throw OverLimit("/image", "the frame needs " + std::to_string(frame_bytes(scene)) +

@@ -181,6 +181,17 @@ TEST(Command, PlanRadianceAndSchemaAnswerAsTheRoutesDo) {
   EXPECT_EQ(json::parse(schema.out()), json_of(client().Get("/v1/schema")));
 }
 
+TEST(Command, TheContactSheetIsOnePictureAsWideAsAsked) {
+  Folder folder;
+  const auto file = folder / "sheet.png";
+  Program run({"contact-sheet", "-o", file, "--width", "200", "--columns", "10"});
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  const auto png = read_file(file);
+  ASSERT_GT(png.size(), 24u);
+  // The header chunk begins with width and height, four bytes each, highest first.
+  EXPECT_EQ(png.substr(12, 8), std::string("IHDR\0\0\0\xc8", 8));
+}
+
 TEST(Command, DevicesMarksTheOneThatWouldBeUsed) {
   Program run({"devices"});
   EXPECT_EQ(run.wait(), 0) << run.err();

@@ -242,7 +242,9 @@ TEST(Radiance, TheBodyIsReadStrictly) {
   };
   for (const auto& [body, pointer] : cases) {
     SCOPED_TRACE(body.dump());
-    expect_problem(post("/v1/radiance", body), 400, pointer);
+    const auto answer = post("/v1/radiance", body);
+    expect_problem(answer, 400, pointer);
+    EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr(pointer));
   }
 }
 
