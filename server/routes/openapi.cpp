@@ -79,7 +79,7 @@ json responses(const json& content, std::initializer_list<int> problems) {
         {"description", status_phrase(status)},
         {"content",
          {{"application/problem+json",
-           {{"schema", {{"$ref", "#/components/schemas/ProblemDetails"}}}}}}}};
+           {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
   }
   return out;
 }
@@ -113,7 +113,7 @@ json document() {
       {"paths", paths},
       {"components",
        {{"schemas",
-         {{"Scene", embedded_scene_schema()}, {"ProblemDetails", problem_schema()}}}}}};
+         {{"Scene", embedded_scene_schema()}, {"Problem", problem_schema()}}}}}};
 }
 
 }  // namespace openapi
