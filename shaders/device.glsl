@@ -1,3 +1,5 @@
+#extension GL_EXT_control_flow_attributes : require
+
 // What the physics files stand on in a shader: types, constants of the pipeline, buffers.
 // engine/physics/physics.h is the same for C++.
 #define Real float
@@ -5,6 +7,7 @@
 #define Vec3 vec3
 #define Vec4 vec4
 #define CONSTANT const
+#define UNROLL [[unroll]]
 #define ARRAY(T, name, n) in T name[n]
 #define OUT_ARRAY(T, name, n) out T name[n]
 #define INOUT_ARRAY(T, name, n) inout T name[n]
@@ -52,9 +55,9 @@ Vec4 scattering_[MEDIA_GROUPS_SIZE];
 void load_scene() { scene = stored_scene; }
 
 void load_media() {
-  for (int c = 0; c < MEDIA; ++c) {
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
     medium_[c] = media[c];
-    for (int group = 0; group < GROUPS; ++group) {
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
       extinction_[c * GROUPS + group] = spectra[(2 + 3 * c) * GROUPS + group];
       scattering_[c * GROUPS + group] = spectra[(3 + 3 * c) * GROUPS + group];
     }

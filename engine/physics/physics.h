@@ -27,6 +27,7 @@ using glm::sin;
 using glm::sqrt;
 
 #define CONSTANT static constexpr
+#define UNROLL
 #define ARRAY(T, name, n) const T(&name)[n]
 #define OUT_ARRAY(T, name, n) T(&name)[n]
 #define INOUT_ARRAY(T, name, n) T(&name)[n]
@@ -91,6 +92,7 @@ struct Physics {
 
 #pragma GCC diagnostic pop
 #undef CONSTANT
+#undef UNROLL
 #undef ARRAY
 #undef OUT_ARRAY
 #undef INOUT_ARRAY

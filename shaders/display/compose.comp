@@ -33,14 +33,14 @@ void main() {
   bool sky = pixel.inside && !path.meets_ground;
   Vec3 camera = Vec3(0.0, 0.0, scene.planet_radius_km + scene.camera_altitude_km);
   Vec4 value = Vec4(0.0);
-  for (int g = 0; g < GROUPS; ++g) {
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 inscatter = tile[(INSCATTER * GROUPS + g) * n + i];
     Vec4 ground = tile[(GROUND * GROUPS + g) * n + i];
     Vec4 transmittance = tile[(TRANSMITTANCE * GROUPS + g) * n + i];
     Vec4 sun = sky ? transmittance * disc_radiance(pixel.direction, camera, limb_exponent(g),
                                                    pixel_angle())
                    : Vec4(0.0);
-    for (int k = 0; k < 4; ++k) {
+    UNROLL for (int k = 0; k < 4; ++k) {
       Vec4 light = push.inscatter[k] * inscatter + push.ground[k] * ground +
                    push.sun[k] * sun + push.transmittance[k] * transmittance;
       value[k] += dot(matrix[(push.first_row + k) * GROUPS + g], light);

@@ -33,10 +33,10 @@ void main() {
   if (!pixel.inside || path_from_camera(pixel.direction).meets_ground) return;
   int i = at - push.first_ray;
   Vec4 value = Vec4(0.0);
-  for (int g = 0; g < GROUPS; ++g) {
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 light = star_radiance[star * GROUPS + g] *
                  tile[(TRANSMITTANCE * GROUPS + g) * push.rays_in_tile + i];
-    for (int k = 0; k < 4; ++k) {
+    UNROLL for (int k = 0; k < 4; ++k) {
       value[k] += dot(matrix[(push.first_row + k) * GROUPS + g], light);
     }
   }

@@ -36,11 +36,11 @@ void main() {
                (ground || push.range.first_view == 0);
   bool no_columns = fresh && !ground;
   int quantity = ground ? GROUND : INSCATTER;
-  for (int c = 0; c < MEDIA; ++c) {
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
     view_column[c] = no_columns ? 0.0 : columns[c * n + i];
     light_column[c] = no_columns ? 0.0 : columns[(MEDIA + c) * n + i];
   }
-  for (int g = 0; g < GROUPS; ++g) {
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
     radiance[g] = fresh ? Vec4(0.0) : tile[(quantity * GROUPS + g) * n + i];
   }
   if (ground) {
@@ -52,7 +52,7 @@ void main() {
   // With the ground's last part the ray is done: the air in front of it is known.
   bool done = ground && push.range.end_sun == scene.disc_points &&
               push.range.end_light == push.light_samples;
-  for (int g = 0; g < GROUPS; ++g) {
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 transmittance = transmittance_of(view_column, g);
     if (done) {
       radiance[g] = radiance[g] * transmittance;
@@ -60,7 +60,7 @@ void main() {
     }
     tile[(quantity * GROUPS + g) * n + i] = radiance[g];
   }
-  for (int c = 0; c < MEDIA; ++c) {
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
     columns[c * n + i] = view_column[c];
     columns[(MEDIA + c) * n + i] = light_column[c];
   }

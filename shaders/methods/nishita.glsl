@@ -14,10 +14,9 @@ struct MarchRange {
 void add_columns_to_sun(Real h, Real mu, int first, int end, int samples,
                         INOUT_ARRAY(Real, column, MEDIA_SIZE)) {
   Real step_km = distance_to_top(h, mu) / Real(samples);
-  Real density[MEDIA_SIZE];
   for (int i = first; i < end; ++i) {
-    densities(altitude_after(h, mu, (Real(i) + 0.5) * step_km), density);
-    for (int c = 0; c < MEDIA; ++c) column[c] += step_km * density[c];
+    Real altitude = altitude_after(h, mu, (Real(i) + 0.5) * step_km);
+    UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += step_km * relative_density(altitude, c);
   }
 }
 
@@ -26,9 +25,9 @@ void add_columns_to_sun(Real h, Real mu, int first, int end, int samples,
 void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_SIZE),
                    ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), Real weight, int sun,
                    INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
-  for (int group = 0; group < GROUPS; ++group) {
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
     Vec4 source = Vec4(0.0);
-    for (int c = 0; c < MEDIA; ++c) {
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
       source = source + scattering_phase[c * GROUPS_SIZE + group] * density[c];
     }
     Vec4 light = transmittance_of(column, group) * weight;
@@ -62,7 +61,7 @@ void march_view(Path path, MarchRange range, int view_samples, int light_samples
       SunRay sun = sun_ray(position, MANY_SUNS ? sun_offset(k) : Vec3(0.0));
       Real mu_sun = dot(position, sun.direction) / length(position);
       if (meets_ground(h, mu_sun)) continue;  // the planet's shadow
-      for (int c = 0; c < MEDIA; ++c) {
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
         light_column[c] = range.first_light > 0 ? light_column[c] : 0.0;
       }
       add_columns_to_sun(h, mu_sun, range.first_light, range.end_light, light_samples,
@@ -71,13 +70,13 @@ void march_view(Path path, MarchRange range, int view_samples, int light_samples
       if (sun_varies) {
         scattering_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
       }
-      for (int c = 0; c < MEDIA; ++c) {
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
         column[c] = view_column[c] + 0.5 * step_km * density[c] + light_column[c];
       }
       add_scattered(column, density, scattering_phase, step_km * sun.irradiance, k, inscatter);
     }
     if (range.end_sun < scene.disc_points || range.end_light < light_samples) continue;
-    for (int c = 0; c < MEDIA; ++c) view_column[c] += step_km * density[c];
+    UNROLL for (int c = 0; c < MEDIA; ++c) view_column[c] += step_km * density[c];
   }
 }
 
@@ -105,13 +104,13 @@ void light_ground(Path path, MarchRange range, int light_samples,
     SunRay sun = sun_ray(position, MANY_SUNS ? sun_offset(k) : Vec3(0.0));
     Real mu_sun = dot(position, sun.direction) / length(position);
     if (mu_sun <= 0.0) continue;
-    for (int c = 0; c < MEDIA; ++c) {
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
       light_column[c] = range.first_light > 0 ? light_column[c] : 0.0;
     }
     add_columns_to_sun(0.0, mu_sun, range.first_light, range.end_light, light_samples,
                        light_column);
     if (range.end_light < light_samples) continue;
-    for (int group = 0; group < GROUPS; ++group) {
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
       Vec4 light = transmittance_of(light_column, group) * (sun.irradiance * mu_sun);
       if (MANY_SUNS) light = light * sun_weight(k, group);
       ground[group] = ground[group] + lambertian(group) * light;

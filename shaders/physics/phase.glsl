@@ -94,14 +94,14 @@ Vec4 tabulated_phase(PhasePosition position, int group) {
 // Scattering coefficient times phase function of every constituent, 1/(km sr) where its profile is 1.
 void scattering_towards(ScatteringAngle angle,
                         OUT_ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE)) {
-  for (int c = 0; c < MEDIA; ++c) {
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
     MediumData m = medium(c);
     PhasePosition position;
     Real same = 0.0;
     if (m.phase == PHASE_HENYEY_GREENSTEIN) same = henyey_greenstein_phase(m.g, angle);
     if (m.phase == PHASE_CORNETTE_SHANKS) same = cornette_shanks_phase(m.g, angle);
     if (m.phase == PHASE_TABLE) position = phase_position(m, angle);
-    for (int group = 0; group < GROUPS; ++group) {
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
       Vec4 phase = Vec4(same);
       if (m.phase == PHASE_RAYLEIGH) {
         phase = rayleigh_phase(depolarisation(c, group), angle.cosine);

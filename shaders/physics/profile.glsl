@@ -25,27 +25,16 @@ Real tabulated_density(Real h, int first, int count) {
   return (node.y + node.z * x) * exp(node.w * x);
 }
 
+Real relative_density(Real h, int c) {
+  MediumData m = medium(c);
+  if (c < EXPONENTIALS) return exp(-h * m.a);
+  if (c < EXPONENTIALS + TENTS) return max(0.0, 1.0 - abs(h - m.a) * m.b);
+  if (c < EXPONENTIALS + TENTS + QUADRATICS) return (1.0 - h * m.a) * (1.0 - h * m.a);
+  if (c < MEDIA - TABLES) return 1.0;
+  return tabulated_density(h, m.profile_node, m.profile_nodes);
+}
+
+// Of all constituents; unrolled, so that the comparisons above are gone.
 void densities(Real h, OUT_ARRAY(Real, density, MEDIA_SIZE)) {
-  int c = 0;
-  for (int i = 0; i < EXPONENTIALS; ++i) {
-    density[c] = exp(-h * medium(c).a);
-    ++c;
-  }
-  for (int i = 0; i < TENTS; ++i) {
-    density[c] = max(0.0, 1.0 - abs(h - medium(c).a) * medium(c).b);
-    ++c;
-  }
-  for (int i = 0; i < QUADRATICS; ++i) {
-    Real x = 1.0 - h * medium(c).a;
-    density[c] = x * x;
-    ++c;
-  }
-  for (int i = 0; i < UNIFORMS; ++i) {
-    density[c] = 1.0;
-    ++c;
-  }
-  for (int i = 0; i < TABLES; ++i) {
-    density[c] = tabulated_density(h, medium(c).profile_node, medium(c).profile_nodes);
-    ++c;
-  }
+  UNROLL for (int c = 0; c < MEDIA; ++c) density[c] = relative_density(h, c);
 }

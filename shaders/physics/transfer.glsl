@@ -3,7 +3,7 @@
 // exp(-sum of extinction times column).
 Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
   Vec4 depth = Vec4(0.0);
-  for (int c = 0; c < MEDIA; ++c) depth = depth + extinction(c, group) * column[c];
+  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + extinction(c, group) * column[c];
   return exp(-depth);
 }
 
