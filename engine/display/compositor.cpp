@@ -74,7 +74,8 @@ std::span<const float> FrameStore::samples(std::size_t group, std::size_t k) con
 }
 
 double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
-  constexpr double middle_grey = 0.18;
+  // A stop above middle grey: skies are bright things.
+  constexpr double aim = 0.36;
   // What is 8 stops below the mean is black in the picture however it is exposed: night sides
   // and grounds in the shade don't make the rest too bright.
   constexpr double black = 1.0 / 256;
@@ -92,7 +93,7 @@ double automatic_exposure_ev(std::span<const float> luminance, double white_card
   double mean = mean_over(0, [](double y) { return y; });
   if (!(mean > 0)) return 0;
   double log_mean = mean_over(black * mean, [](double y) { return std::log2(y); });
-  return std::log2(middle_grey * white_card) - log_mean;
+  return std::log2(aim * white_card) - log_mean;
 }
 
 Compositor::Compositor(vulkan::Device& device)

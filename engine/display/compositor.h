@@ -25,8 +25,8 @@ struct FrameStore {
   std::vector<vulkan::Buffer> rgbx;     ///< none where nothing is displayed
 };
 
-/// Exposure at which the geometric mean of the luminance is shown as middle grey; 0 of a black
-/// frame.
+/// Exposure at which the geometric mean of the luminance is 0.36, a stop above middle grey; 0
+/// of a black frame.
 /// @param luminance  of each pixel; what is not positive, or black beside the rest, does not
 /// count
 /// @param white_card  luminance that is shown as 1 at exposure 0

@@ -33,8 +33,9 @@ Vec3 aces(Vec3 rgb) {
                  Vec3(-0.00327, -0.07276, 1.07602), a / b);
 }
 
-// AgX (Troy Sobotka), its base curve as a polynomial in the logarithm (Benjamin Wrensch's fit).
-// The curve's output is encoded with an exponent of 2.2; linear light is returned.
+// AgX (Troy Sobotka) with its "punchy" look, the base curve as a polynomial in the logarithm (Benjamin
+// Wrensch's fit): the base look alone leaves a blue sky grey. The curve's output is encoded with an
+// exponent of 2.2; linear light is returned.
 Vec3 agx(Vec3 rgb) {
   Vec3 v = by_rows(Vec3(0.842479062253094, 0.0784335999999992, 0.0792237451477643),
                    Vec3(0.0423282422610123, 0.878468636469772, 0.0791661274605434),
@@ -44,9 +45,11 @@ Vec3 agx(Vec3 rgb) {
   Vec3 x = clamp((log2(max(v, Vec3(1e-10))) - least_ev) / (most_ev - least_ev), 0.0, 1.0);
   Vec3 curve = ((((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x -
                 0.00232);
+  Vec3 strong = pow(max(curve, Vec3(0.0)), Vec3(1.35));
+  Vec3 look = Vec3(luminance(strong)) + 1.4 * (strong - Vec3(luminance(strong)));
   Vec3 encoded = by_rows(Vec3(1.19687900512017, -0.0980208811401368, -0.0990297440797205),
                          Vec3(-0.0528968517574562, 1.15190312990417, -0.0989611768448433),
-                         Vec3(-0.0529716355144438, -0.0980434501171241, 1.15107367264116), curve);
+                         Vec3(-0.0529716355144438, -0.0980434501171241, 1.15107367264116), look);
   return pow(max(encoded, Vec3(0.0)), Vec3(2.2));
 }
 

@@ -194,13 +194,13 @@ TEST(Irradiance, OfTheSkyIsTheIntegralOfItsRadiance) {
   EXPECT_NEAR(stated->diffuse_down[1], sum, 0.01 * sum);
 }
 
-TEST(Exposure, PutsTheMeanOfAnEvenFrameAtMiddleGrey) {
+TEST(Exposure, PutsTheMeanOfAnEvenFrameAStopAboveMiddleGrey) {
   std::vector<float> even(1000, 0.5f);
-  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.18, 1e-6);
+  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.36, 1e-6);
   even.resize(2000, -1.f);  // outside the planet
-  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.18, 1e-6);
+  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.36, 1e-6);
   even.resize(3000, 1e-6f);  // a night side
-  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.18, 1e-6);
+  EXPECT_NEAR(std::exp2(automatic_exposure_ev(even, 1)) * 0.5, 0.36, 1e-6);
 }
 
 TEST(Exposure, OfABlackFrameIsZero) {
