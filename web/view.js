@@ -16,7 +16,14 @@ const REST_MS = 160;
 const FEWEST_PIXELS = 6000;
 const MOST_PIXELS = 4.2e6;
 const SHARPEN_STEP = 9;  // times as many pixels
+const MOVING_BUDGET_MS = 60;    // of device time, where the method is the daemon's to choose
+const RESTING_BUDGET_MS = 2000;
 const FIXED_SHAPES = { equirectangular: 2, cubemap: 1 / 6 };
+
+// A method for a frame that somebody waits for; what the scene itself says of time stands.
+function withinTime(method = {}, moving) {
+  return { max_error: 0.02, max_ms: moving ? MOVING_BUDGET_MS : RESTING_BUDGET_MS, ...method };
+}
 
 export class View extends EventTarget {
   #version = 0;        // of the scene that is wanted
@@ -168,7 +175,8 @@ export class View extends EventTarget {
     const { channels, layers, ...image } = scene.image ?? {};
     try {
       const { blob, facts } = await render(
-        { ...scene, image: { ...image, width, height, format: 'png' } }, flight.controller.signal);
+        { ...scene, method: withinTime(scene.method, moving),
+          image: { ...image, width, height, format: 'png' } }, flight.controller.signal);
       const bitmap = await createImageBitmap(blob);
       if (this.#flight !== flight) return bitmap.close();
       this.#show(flight, bitmap, { ...facts, width, height });
