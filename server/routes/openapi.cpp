@@ -112,8 +112,7 @@ json document() {
          "every answer states its error."}}},
       {"paths", paths},
       {"components",
-       {{"schemas",
-         {{"Scene", embedded_scene_schema()}, {"Problem", problem_schema()}}}}}};
+       {{"schemas", {{"Scene", embedded_scene_schema()}, {"Problem", problem_schema()}}}}}};
 }
 
 }  // namespace openapi

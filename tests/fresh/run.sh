@@ -104,7 +104,10 @@ try_test() {
 }
 
 sources=/etc/apt/sources.list.d/debian.sources
-if [[ ! -f $sources ]]; then sources=http://deb.debian.org/debian; fi
+if [[ ! -f $sources ]]; then
+  echo "fresh: there is no $sources to install a new Debian from" >&2
+  exit 1
+fi
 mmdebstrap --quiet --variant=minbase --mode=root bookworm "$work/base.tar" "$sources"
 
 new_machine root
