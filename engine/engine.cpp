@@ -67,14 +67,28 @@ Samples in_error_channels(const Samples& radiance, const Scene& scene, const Out
 }
 
 std::string describe(const Scene& scene, const Plan& plan) {
-  nlohmann::json document{
-      {"scene", canonical(scene)},    {"method", plan.method},
-      {"options", plan.options},      {"wavelengths_nm", plan.wavelengths_nm},
-      {"error", plan.expected_error}, {"version", version()}};
+  nlohmann::json document = plan_document(plan);
+  document["scene"] = canonical(scene);
+  document["version"] = version();
   return document.dump();
 }
 
 }  // namespace
+
+nlohmann::json plan_document(const Plan& plan) {
+  nlohmann::json options = nlohmann::json::object();
+  for (auto [name, value] : plan.options) {
+    if (value == std::floor(value)) {
+      options[name] = static_cast<std::int64_t>(value);
+    } else {
+      options[name] = value;
+    }
+  }
+  return {{"method", plan.method},
+          {"options", options},
+          {"wavelengths_nm", plan.wavelengths_nm},
+          {"error", plan.expected_error}};
+}
 
 Cancelled::Cancelled(Reason r)
     : std::runtime_error(r == Reason::deadline ? "the deadline has passed"

@@ -53,6 +53,9 @@ struct Plan {
   std::string why;            ///< in words
 };
 
+/// {"method", "options", "wavelengths_nm", "error"}: as in files and answers.
+nlohmann::json plan_document(const Plan& plan);
+
 /// A rendered frame: linear planes and, where the format shows them, displayed pixels.
 struct Frame {
   int width = 0, height = 0;

@@ -81,15 +81,13 @@ std::vector<Direction> read_directions(const json& document) {
 }  // namespace
 
 json plan_document(const Scene& scene, const Plan& plan) {
-  return {{"scene", canonical(scene)},
-          {"method", plan.method},
-          {"options", plan.options},
-          {"wavelengths_nm", plan.wavelengths_nm},
-          {"error", plan.expected_error},
-          {"ms", plan.expected_ms},
-          {"met", plan.met},
-          {"why", plan.why},
-          {"atmosphere", atmosphere_key(scene)}};
+  json document = plan_document(plan);
+  document["scene"] = canonical(scene);
+  document["ms"] = plan.expected_ms;
+  document["met"] = plan.met;
+  document["why"] = plan.why;
+  document["atmosphere"] = atmosphere_key(scene);
+  return document;
 }
 
 RadianceRequest read_radiance_request(const json& document) {
