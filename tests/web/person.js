@@ -99,6 +99,7 @@ export class Person {
     person.context = await browser.newContext({ ...SIZES[size], acceptDownloads: true, ...options });
     await person.context.grantPermissions(['clipboard-read', 'clipboard-write']);
     person.page = await person.context.newPage();
+    person.page.setDefaultTimeout(90000);  // laws, not speeds: machines may be slow
     person.page.on('console', (message) => {
       if (message.type() === 'error') person.complaints.push(message.text());
     });
@@ -118,7 +119,7 @@ export class Person {
       const full = Math.round(picture.clientWidth * devicePixelRatio);
       return window.frameRequests.flying === 0 && picture.dataset.state === 'sharp' &&
         Math.abs(picture.width - full) <= 2;
-    }, undefined, { timeout: 20000 });
+    }, undefined, { timeout: 90000 });
   }
   async leave() {
     await this.context.close();
