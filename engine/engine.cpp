@@ -109,12 +109,14 @@ struct Engine::Parts {
       : device(options.device),
         commands(device),
         pacer(options.longest_dispatch_ms),
+        tables(options.table_bytes),
         methods(make_methods(device)),
         compositor(device) {}
 
   vulkan::Device device;
   vulkan::Commands commands;
   Pacer pacer;
+  TableCache tables;
   std::vector<std::unique_ptr<Method>> methods;
   Compositor compositor;
   DeviceDescription description;
@@ -128,15 +130,19 @@ struct Engine::Parts {
 
   struct Traced {
     Samples radiance, transmittance;  ///< [ray][wavelength], radiance per unit irradiance
+    Samples standard_error;           ///< of random methods, else empty
     double device_ms = 0;
   };
 
   /// Some of the wavelengths of a problem, on the device.
   struct Batch {
     std::size_t first;  ///< wavelength
-    Problem problem;
     UploadedScene scene;
+
+    std::size_t wavelengths() const { return scene.problem().wavelengths_nm.size(); }
   };
+
+  Tracer tracer(const Watch& watch) { return {device, commands, pacer, tables, watch}; }
 
   /// All wavelengths; the rays are `directions`, or the camera's where there are none.
   std::vector<Batch> upload(const Problem& problem,
@@ -146,9 +152,7 @@ struct Engine::Parts {
     for (std::size_t first = 0; first < count; first += wavelengths_at_once) {
       Problem part =
           at_wavelengths(problem, first, std::min(wavelengths_at_once, count - first));
-      Physics<float> physics = pack<float>(part);
-      if (!directions.empty()) set_directions(physics, directions);
-      batches.push_back({first, std::move(part), UploadedScene(device, physics)});
+      batches.push_back({first, UploadedScene(device, part, directions)});
     }
     return batches;
   }
@@ -160,7 +164,8 @@ struct Engine::Parts {
     Method& m = method(name);
     const UploadedScene& largest = batches.front().scene;
     int at_once = std::min(m.rays_at_once(largest, options, pacer), rays);
-    vulkan::Buffer values(device, Tile::bytes(largest.groups(), at_once), vulkan::Memory::host);
+    vulkan::Buffer values(device, Tile::bytes(m.description(), largest.groups(), at_once),
+                          vulkan::Memory::host);
     for (int first = 0; first < rays; first += at_once) {
       Tile tile{first, std::min(at_once, rays - first), values};
       for (std::size_t b = 0; b < batches.size(); ++b) {
@@ -179,12 +184,14 @@ struct Engine::Parts {
     std::vector<double> dark(problem.wavelengths_nm.size(), 0.0);
     traced.radiance.assign(directions.size(), dark);
     traced.transmittance.assign(directions.size(), dark);
+    bool random = method(method_name).description().random;
+    if (random) traced.standard_error.assign(directions.size(), dark);
     std::vector<Batch> batches = upload(problem, directions);
-    Tracer tracer{device, commands, pacer, watch};
+    Tracer tracer = this->tracer(watch);
     auto read = [&](std::size_t b, const Tile& tile) {
       const Batch& batch = batches[b];
       auto values = tile.values.as<const glm::vec4>();
-      for (std::size_t w = 0; w < batch.problem.wavelengths_nm.size(); ++w) {
+      for (std::size_t w = 0; w < batch.wavelengths(); ++w) {
         for (int ray = 0; ray < tile.rays; ++ray) {
           auto value = [&](int quantity) -> double {
             std::size_t plane = quantity * batch.scene.groups() + w / 4;
@@ -195,6 +202,7 @@ struct Engine::Parts {
             traced.radiance[at][batch.first + w] = value(0) + value(1);
           }
           traced.transmittance[at][batch.first + w] = value(2);
+          if (random) traced.standard_error[at][batch.first + w] = value(3);
         }
       }
     };
@@ -255,10 +263,10 @@ void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
   std::vector<Batch> batches = upload(problem);
   std::vector<Compositor::Job> jobs;
   for (const Batch& batch : batches) {
-    jobs.push_back(compositor.prepare(device, batch.problem, batch.scene, groups, batch.first,
+    jobs.push_back(compositor.prepare(device, batch.scene, groups, batch.first,
                                       problem.wavelengths_nm.size()));
   }
-  Tracer tracer{device, commands, pacer, watch};
+  Tracer tracer = this->tracer(watch);
   auto compose = [&](std::size_t b, const Tile& tile) {
     compositor.compose(commands, jobs[b], tile, store);
     tracer.submit();
@@ -274,7 +282,7 @@ void Engine::Parts::display(const Scene& scene, const Output& output, const Watc
                           ? *scene.image.exposure_ev
                           : automatic_exposure_ev(store.samples(0, 3), output.white_card);
   if (store.rgbx.empty()) return;
-  Tracer tracer{device, commands, pacer, watch};
+  Tracer tracer = this->tracer(watch);
   compositor.display(tracer, scene.image, output, frame.exposure_ev, store);
   frame.rgbx = store.rgbx.front().as<const unsigned char>().data();
   frame.render_ms += tracer.device_ms;
@@ -370,6 +378,10 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   result.radiance = std::move(traced.radiance);
   result.transmittance = std::move(traced.transmittance);
   scale_by(sunlight, result.radiance);
+  if (!traced.standard_error.empty()) {
+    scale_by(sunlight, traced.standard_error);
+    result.standard_error = std::move(traced.standard_error);
+  }
   if (irradiance) {
     Physics<double> physics = pack<double>(problem);
     glm::dvec3 camera(0, 0, problem.planet_radius_km + problem.camera.altitude_km);

@@ -99,6 +99,7 @@ struct MethodOption {
 struct MethodDescription {
   std::string name, title, summary;
   int highest_order = -1;           ///< the highest order it computes; -1 all
+  bool random = false;              ///< its values have standard errors
   std::vector<std::string> limits;  ///< where it is not valid, in words
   std::vector<MethodOption> options;
 };
@@ -114,6 +115,7 @@ struct DeviceDescription {
 struct EngineOptions {
   std::string device;  ///< part of a device's name; empty: the best there is
   double longest_dispatch_ms = 50;
+  std::size_t table_bytes = std::size_t{256} << 20;  ///< of tables kept between requests
 };
 
 class Engine {

@@ -38,6 +38,7 @@ const std::vector<Setting>& settings() {
       {"frame-memory-mb",
        "MiB of all frames alive at once; one that needs more by itself is refused with 422",
        &Config::frame_memory_mb, 1, 1e6},
+      {"cache-mb", "MiB of all tables kept between requests", &Config::cache_mb, 0, 1e6},
       {"log-level",
        "debug logs probes too, warning only what went wrong",
        &Config::log_level,

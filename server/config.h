@@ -21,9 +21,11 @@ struct Config {
   int max_wavelengths = 64;
   double max_body_mb = 4;
   double frame_memory_mb = 2048;
+  double cache_mb = 256;
   std::string log_level = "info";
 
   std::size_t body_bytes() const { return static_cast<std::size_t>(max_body_mb * 1048576); }
+  std::size_t cache_bytes() const { return static_cast<std::size_t>(cache_mb * 1048576); }
   std::size_t frame_bytes() const {
     return static_cast<std::size_t>(frame_memory_mb * 1048576);
   }

@@ -8,7 +8,7 @@ namespace cyanometer {
 
 Service::Service(const Config& config_)
     : config(config_),
-      queue({.engine = {.device = config_.device},
+      queue({.engine = {.device = config_.device, .table_bytes = config_.cache_bytes()},
              .capacity = static_cast<std::size_t>(config_.queue),
              .frame_bytes = config_.frame_bytes(),
              .log = [](const std::string& event) { log_event(spdlog::level::err, event); }}) {}

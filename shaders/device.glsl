@@ -79,5 +79,5 @@ void load_media() {
 // plane of `rays_in_tile` values. Radiance is per unit irradiance, 1/sr.
 #define INSCATTER 0
 #define GROUND 1
-#define TRANSMITTANCE 2  // to the ground or to space
-#define TILE_QUANTITIES 3
+#define TRANSMITTANCE 2   // to the ground or to space
+#define STANDARD_ERROR 3  // of inscatter and ground together; of random methods only

@@ -101,10 +101,10 @@ Compositor::Compositor(vulkan::Device& device)
       stars_(device, stars_spirv, UploadedScene::bindings + 8, sizeof(StarsPush)),
       display_(device, display_spirv, 4, sizeof(DisplayPush)) {}
 
-Compositor::Job Compositor::prepare(vulkan::Device& device, const Problem& problem,
-                                    const UploadedScene& scene,
+Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
                                     const std::vector<PlaneGroup>& groups, std::size_t first,
                                     std::size_t wavelengths) {
+  const Problem& problem = scene.problem();
   std::size_t count = problem.wavelengths_nm.size();
   Job job{scene,      groups,
           first == 0, first + count == wavelengths,

@@ -45,9 +45,9 @@ class Compositor {
     vulkan::Buffer matrix;
     std::vector<vulkan::Buffer> star_buffers;  ///< pixels and radiances; none without stars
   };
-  /// @param problem  at the wavelengths of `scene`, which begin with the frame's number `first`
+  /// @param first  the place of the scene's first wavelength in the frame's
   /// @param wavelengths  of the whole frame
-  Job prepare(vulkan::Device& device, const Problem& problem, const UploadedScene& scene,
+  Job prepare(vulkan::Device& device, const UploadedScene& scene,
               const std::vector<PlaneGroup>& groups, std::size_t first,
               std::size_t wavelengths);
   /// Records the planes of one tile.

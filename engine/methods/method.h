@@ -10,6 +10,7 @@
 
 #include "engine/engine.h"
 #include "engine/methods/pacer.h"
+#include "engine/methods/table_cache.h"
 #include "engine/methods/uploaded_scene.h"
 #include "engine/problem.h"
 #include "engine/vulkan/commands.h"
@@ -19,11 +20,12 @@ namespace cyanometer {
 using MethodOptions = std::map<std::string, double>;
 
 /// What a method leaves of each ray of a tile: inscattered radiance, ground radiance (as seen,
-/// both per unit irradiance, 1/sr) and transmittance to ground or space, in this order, each as
-/// groups of four wavelengths, each of those a plane of `rays` vec4 (shaders/device.glsl).
+/// both per unit irradiance, 1/sr), transmittance to ground or space, and where the method is
+/// random the standard error of the two radiances' sum, in this order, each as groups of four
+/// wavelengths, each of those a plane of `rays` vec4 (shaders/device.glsl).
 struct Tile {
-  static constexpr int quantities = 3;
-  static std::size_t bytes(int groups, int rays) {
+  static std::size_t bytes(const MethodDescription& method, int groups, int rays) {
+    int quantities = method.random ? 4 : 3;
     return std::size_t{16} * quantities * groups * rays;
   }
   int first_ray = 0;
@@ -36,6 +38,7 @@ struct Tracer {
   vulkan::Device& device;
   vulkan::Commands& commands;
   Pacer& pacer;
+  TableCache& tables;
   const Watch& watch;
   double device_ms = 0;
 
@@ -51,7 +54,9 @@ class Method {
   /// Rays that are traced together, given the scene and the pace of the device.
   virtual int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                            const Pacer& pacer) const = 0;
-  /// Leaves all quantities of the tile complete. No dispatch is longer than the pacer allows.
+  /// Leaves all quantities of the tile complete, with as many orders of scattering as the
+  /// scene's problem asks for or, where the method knows fewer, those. Tables come from the
+  /// tracer's cache. No dispatch is longer than the pacer allows.
   virtual void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
                      const Tile& tile) = 0;
 };

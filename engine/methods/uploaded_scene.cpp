@@ -1,6 +1,7 @@
 #include "engine/methods/uploaded_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 
@@ -30,6 +31,30 @@ std::vector<std::pair<std::size_t, std::size_t>> lay_out(const std::vector<Bytes
   return places;
 }
 
+template <class T>
+void append_bytes(std::string& to, const T& values) {
+  auto bytes = std::as_bytes(std::span(values));
+  to.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+std::string key_of_air(const Physics<float>& p) {
+  std::string key;
+  append_bytes(key, std::array{p.scene.planet_radius_km, p.scene.thickness_km});
+  append_bytes(key, std::array{p.GROUPS, p.EXPONENTIALS, p.TENTS, p.QUADRATICS, p.UNIFORMS});
+  append_bytes(key, p.media);
+  append_bytes(key, p.spectra);
+  append_bytes(key, p.profile_nodes);
+  append_bytes(key, p.phase_angles);
+  append_bytes(key, p.phase_values);
+  return key;
+}
+
+Physics<float> packed(const Problem& problem, const std::vector<glm::dvec3>& directions) {
+  Physics<float> physics = pack<float>(problem);
+  if (!directions.empty()) set_directions(physics, directions);
+  return physics;
+}
+
 /// One for each constituent, and for a table those of its binary search.
 int iterations(const Physics<float>& physics) {
   int count = physics.MEDIA;
@@ -41,8 +66,15 @@ int iterations(const Physics<float>& physics) {
 
 }  // namespace
 
-UploadedScene::UploadedScene(vulkan::Device& device, const Physics<float>& physics)
-    : parts_(lay_out(arrays(physics), device.limits().storage_alignment)),
+UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
+                             const std::vector<glm::dvec3>& directions)
+    : UploadedScene(device, problem, packed(problem, directions)) {}
+
+UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
+                             const Physics<float>& physics)
+    : problem_(problem),
+      air_key_(key_of_air(physics)),
+      parts_(lay_out(arrays(physics), device.limits().storage_alignment)),
       buffer_(device, parts_.back().first + parts_.back().second, vulkan::Memory::device),
       constants_(specialization(physics)),
       groups_(physics.GROUPS),

@@ -1,9 +1,11 @@
 // A scene on the device, in the buffers that every method binds first.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/physics/pack.h"
+#include "engine/problem.h"
 #include "engine/vulkan/buffer.h"
 #include "engine/vulkan/commands.h"
 #include "engine/vulkan/kernel.h"
@@ -18,8 +20,15 @@ class UploadedScene {
  public:
   static constexpr int bindings = 8;  ///< 0 to 7 of shaders/device.glsl
 
-  UploadedScene(vulkan::Device& device, const Physics<float>& physics);
+  /// The rays are `directions` (unit; x east, y north, z up at the foot point), or the camera's
+  /// where there are none.
+  UploadedScene(vulkan::Device& device, const Problem& problem,
+                const std::vector<glm::dvec3>& directions = {});
 
+  const Problem& problem() const { return problem_; }
+  /// All that the air and the ground are, as bytes: with equal keys, tables that depend on
+  /// neither sun nor camera are equal.
+  const std::string& air_key() const { return air_key_; }
   const vulkan::Specialization& constants() const { return constants_; }
   int groups() const { return groups_; }  ///< of four wavelengths
   int media() const { return media_; }
@@ -31,6 +40,10 @@ class UploadedScene {
   std::vector<vulkan::Binding> bind(std::initializer_list<vulkan::Binding> own) const;
 
  private:
+  UploadedScene(vulkan::Device& device, const Problem& problem, const Physics<float>& physics);
+
+  Problem problem_;
+  std::string air_key_;
   std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
   vulkan::Buffer buffer_;
   vulkan::Specialization constants_;

@@ -82,6 +82,8 @@ struct Physics {
 #include "shaders/physics/constants.glsl"
 #include "shaders/physics/sphere.glsl"
 #include "shaders/physics/profile.glsl"
+#include "shaders/physics/gauss.glsl"
+#include "shaders/physics/columns.glsl"
 #include "shaders/physics/phase.glsl"
 #include "shaders/physics/sun.glsl"
 #include "shaders/physics/camera.glsl"

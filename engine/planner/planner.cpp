@@ -170,6 +170,11 @@ Plan make_plan(const PlanInputs& inputs) {
   plan.method = automatic ? "nishita" : asked.name;
   Wavelengths wavelengths = choose_wavelengths(inputs, asked_for / 4);
   plan.wavelengths_nm = wavelengths.nm;
+  if (!automatic && asked.name != "nishita") {
+    plan.options = asked.options;
+    plan.why = "As asked.";
+    return plan;
+  }
   Choice choice{};
   if (automatic) {
     choice = choose_samples(inputs, plan.wavelengths_nm, tolerance / 2);

@@ -3,6 +3,8 @@
 #include "physics/constants.glsl"
 #include "physics/sphere.glsl"
 #include "physics/profile.glsl"
+#include "physics/gauss.glsl"
+#include "physics/columns.glsl"
 #include "physics/phase.glsl"
 #include "physics/sun.glsl"
 #include "physics/camera.glsl"

@@ -45,9 +45,24 @@ class Adaptive {
     return ray;
   }
 
- private:
-  using Columns = std::array<double, P::MEDIA_SIZE>;
+  using Columns = std::array<double, P::MEDIA_SIZE>;  ///< km of density 1, by constituent
 
+  /// Along the first `length` km of a ray.
+  Columns column(double h, double mu, double length) {
+    static const GaussRule rule = gauss_legendre(16);
+    Columns sum{};
+    std::vector<double> at = crossings(h, mu, length);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      double width = at[i + 1] - at[i];
+      for (std::size_t k = 0; width > 0 && k < rule.nodes.size(); ++k) {
+        p_.densities(p_.altitude_after(h, mu, at[i] + width * rule.nodes[k]), density_);
+        for (int c = 0; c < p_.MEDIA; ++c) sum[c] += width * rule.weights[k] * density_[c];
+      }
+    }
+    return sum;
+  }
+
+ private:
   int lanes() const { return 4 * p_.GROUPS; }
   static void add(Values& to, const Values& from) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
@@ -85,20 +100,6 @@ class Adaptive {
     std::erase_if(at, [&](double t) { return t < 0 || t > length; });
     std::sort(at.begin(), at.end());
     return at;
-  }
-
-  Columns column(double h, double mu, double length) {
-    static const GaussRule rule = gauss_legendre(16);
-    Columns sum{};
-    std::vector<double> at = crossings(h, mu, length);
-    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-      double width = at[i + 1] - at[i];
-      for (std::size_t k = 0; width > 0 && k < rule.nodes.size(); ++k) {
-        p_.densities(p_.altitude_after(h, mu, at[i] + width * rule.nodes[k]), density_);
-        for (int c = 0; c < p_.MEDIA; ++c) sum[c] += width * rule.weights[k] * density_[c];
-      }
-    }
-    return sum;
   }
 
   double depth(const Columns& columns, int lane) const {

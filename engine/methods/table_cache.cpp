@@ -1,0 +1,30 @@
+#include "engine/methods/table_cache.h"
+
+namespace cyanometer {
+
+std::shared_ptr<const Tables> TableCache::find_or_make(
+    const std::string& key, const std::function<std::shared_ptr<const Tables>()>& make) {
+  if (auto place = places_.find(key); place != places_.end()) {
+    entries_.splice(entries_.begin(), entries_, place->second);
+    return place->second->tables;
+  }
+  std::shared_ptr<const Tables> tables = make();
+  std::size_t bytes = tables->bytes() + key.size();
+  if (bytes > most_bytes_) return tables;
+  make_room(bytes);
+  entries_.push_front({key, tables});
+  places_[key] = entries_.begin();
+  bytes_ += bytes;
+  return tables;
+}
+
+void TableCache::make_room(std::size_t bytes) {
+  while (!entries_.empty() && bytes_ + bytes > most_bytes_) {
+    const Entry& oldest = entries_.back();
+    bytes_ -= oldest.tables->bytes() + oldest.key.size();
+    places_.erase(oldest.key);
+    entries_.pop_back();
+  }
+}
+
+}  // namespace cyanometer
