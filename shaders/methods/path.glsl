@@ -189,8 +189,9 @@ struct Flight {
   Real density;     // of the choice, 1/km; for the ground its probability
 };
 
-// Share of the choices that are even over all segments, so that no light has a density of nearly 0.
-CONSTANT Real EVEN_SHARE = 0.1;
+// Share of the choices that are even over all segments, so that no light has a density of nearly 0. It
+// falls off along a walk, because a choice that leads nowhere costs a long walk all of its past.
+Real even_share(int vertices) { return 0.1 / Real(1 + vertices * vertices); }
 
 // A segment while it may be the one.
 struct Candidate {
@@ -207,7 +208,7 @@ Real tilted_density(Real slope, Real x) {
   return abs(slope) > 0.05 ? slope * exp(slope * x) / (exp(slope) - 1.0) : 1.0;
 }
 
-Flight place_in(Leg leg, Candidate chosen, Real mass_share, int segments, bool even, Real u) {
+Flight place_in(Leg leg, Candidate chosen, Real mass_share, Real evenly, int segments, bool even, Real u) {
   Flight flight;
   flight.ends = false;
   flight.ground = false;
@@ -220,8 +221,7 @@ Flight place_in(Leg leg, Candidate chosen, Real mass_share, int segments, bool e
   flight.distance_km = segment.back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
   flight.altitude_km = clamp(altitude_after(leg.low_h, stretch.mu, from_lowest_km), 0.0,
                              scene.thickness_km);
-  Real density = (1.0 - EVEN_SHARE) * mass_share * tilted_density(slope, part) +
-                 EVEN_SHARE / Real(segments);
+  Real density = (1.0 - evenly) * mass_share * tilted_density(slope, part) + evenly / Real(segments);
   flight.density = density * Real(SEGMENTS) / stretched_rate(stretch, x);
   return flight;
 }
@@ -232,8 +232,9 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
   int first = leg.back_km > 0.0 ? 0 : SEGMENTS;
   int end = leg.on_km > 0.0 ? 2 * SEGMENTS : SEGMENTS;
   int segments = end - first;
-  bool even = u.x < EVEN_SHARE;
-  Real pick = even ? u.x / EVEN_SHARE : (u.x - EVEN_SHARE) / (1.0 - EVEN_SHARE);
+  Real evenly = even_share(walk.vertices);
+  bool even = u.x < evenly;
+  Real pick = even ? u.x / evenly : (u.x - evenly) / (1.0 - evenly);
   int wanted = even ? first + min(int(pick * Real(segments)), segments - 1) : -1;
 
   Real density[MEDIA_SIZE];
@@ -309,9 +310,9 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
   flight.ends = segments == 0 ? !(ground > 0.0) : !even && !(all > 0.0);
   flight.distance_km = leg.back_km + leg.on_km;
   flight.altitude_km = 0.0;
-  flight.density = segments == 0 ? 1.0 : (1.0 - EVEN_SHARE) * ground / all;
+  flight.density = segments == 0 ? 1.0 : (1.0 - evenly) * ground / all;
   if (flight.ends || flight.ground) return flight;
-  return place_in(leg, chosen, all > 0.0 ? chosen.mass / all : 0.0, segments, even, u.y);
+  return place_in(leg, chosen, all > 0.0 ? chosen.mass / all : 0.0, evenly, segments, even, u.y);
 }
 
 // --- Where to: densities over directions ------------------------------------------------------------
@@ -411,12 +412,12 @@ struct Aim {
 CONSTANT Real HORIZON_WIDTH = 0.15;   // of the proposal, as the cosine of the zenith angle
 CONSTANT Real HORIZON_FOCUS = 0.5;    // 0 is even in azimuth, 1 the sun's own
 
-Aim aim_at(Vec3 sun, bool lit) {
+Aim aim_at(Vec3 sun, Real sunlight) {
   Aim aim;
   Vec2 horizontal = Vec2(sun.x, sun.y);
   Real sine = length(horizontal);
   aim.azimuth = sine > 0.0 ? horizontal / sine : Vec2(1.0, 0.0);
-  aim.sun = lit ? guide_sun_share() : 0.0;
+  aim.sun = guide_sun_share() * sunlight;
   aim.horizon = sun.z < 0.1 ? 0.35 : 0.0;
   return aim;
 }
@@ -561,13 +562,19 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
   SunRay sun = sun_from(walk);
   bool lit = !meets_ground(walk.altitude_km, sun.direction.z) &&
              !(flight.ground && sun.direction.z <= 0.0);
-  if (lit && walk.vertices > 1) {
+  Real carried = 0.0;
+  Real sunlit = 0.0;
+  if (lit) {
     Real column[MEDIA_SIZE];
     columns_to_top(walk.altitude_km, sun.direction.z, column);
     scattered_share(scatterer, sun.direction, density, scattered);
     UNROLL for (int group = 0; group < GROUPS; ++group) {
-      radiance[group] = radiance[group] + throughput[group] * scattered[group] *
-                                              transmittance_of(column, group) * sun.irradiance;
+      Vec4 light = throughput[group] * transmittance_of(column, group);
+      carried += total(throughput[group]);
+      sunlit += total(light);
+      if (walk.vertices > 1) {
+        radiance[group] = radiance[group] + light * scattered[group] * sun.irradiance;
+      }
     }
   }
   if (walk.vertices == orders) return false;
@@ -584,7 +591,7 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
   if (!flight.ground && !(sum > 0.0)) return false;
   UNROLL for (int c = 0; c < MEDIA; ++c) share[c] = share[c] / sum;
 
-  Aim aim = aim_at(sun.direction, lit);
+  Aim aim = aim_at(sun.direction, carried > 0.0 ? min(sunlit / carried, 1.0) : 0.0);
   walk.direction = choose_direction(scatterer, aim, sun.direction, share, Vec4(v.x, v.y, v.z, 0.0));
   scattered_share(scatterer, walk.direction, density, scattered);
   Real proposed = direction_density(scatterer, aim, sun.direction, share, walk.direction);
