@@ -1,12 +1,14 @@
 // The methods there are.
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
+#include "engine/methods/raymarch/raymarch.h"
 
 namespace cyanometer {
 
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
+      raymarch_description(),
   };
   return all;
 }
@@ -14,6 +16,7 @@ const std::vector<MethodDescription>& methods() {
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
+  all.push_back(make_raymarch(device));
   return all;
 }
 
