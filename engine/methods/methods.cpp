@@ -2,12 +2,14 @@
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
 #include "engine/methods/path/path.h"
+#include "engine/methods/raymarch/raymarch.h"
 
 namespace cyanometer {
 
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
+      raymarch_description(),
       path_description(),
   };
   return all;
@@ -16,6 +18,7 @@ const std::vector<MethodDescription>& methods() {
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
+  all.push_back(make_raymarch(device));
   all.push_back(make_path(device));
   return all;
 }

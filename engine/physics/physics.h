@@ -10,6 +10,7 @@ namespace cyanometer::physics {
 
 using glm::abs;
 using glm::atan;
+using glm::ceil;
 using glm::clamp;
 using glm::cos;
 using glm::dot;
@@ -70,6 +71,7 @@ struct Physics {
   std::vector<Vec4> phase_values;
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
+  std::vector<Vec2> quadrature;
 
   // Of the method `path` alone (engine/methods/path/guide.h).
   int SEGMENTS = 8;
@@ -89,13 +91,15 @@ struct Physics {
 #include "shaders/physics/constants.glsl"
 #include "shaders/physics/sphere.glsl"
 #include "shaders/physics/profile.glsl"
-#include "shaders/physics/gauss.glsl"
+#include "shaders/physics/quadrature.glsl"
 #include "shaders/physics/columns.glsl"
 #include "shaders/physics/phase.glsl"
 #include "shaders/physics/sun.glsl"
 #include "shaders/physics/camera.glsl"
+#include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
+#include "shaders/methods/raymarch.glsl"
 #include "shaders/methods/path.glsl"
   // clang-format on
 };
@@ -108,7 +112,7 @@ struct Physics {
 #undef INOUT_ARRAY
 #undef INOUT
 
-static_assert(sizeof(Physics<float>::SceneData) == 128);
+static_assert(sizeof(Physics<float>::SceneData) == 144);
 static_assert(sizeof(Physics<float>::MediumData) == 32);
 
 }  // namespace cyanometer::physics

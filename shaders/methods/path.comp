@@ -5,15 +5,15 @@
 // Segments of each half of a ray that a step of a walk looks at.
 layout(constant_id = 10) const int SEGMENTS = 8;
 
-layout(std430, binding = 8) restrict readonly buffer GuideBuffer { Real path_guide[]; };
+layout(std430, binding = OWN) restrict readonly buffer GuideBuffer { Real path_guide[]; };
 // By lane, between two dispatches: direction and altitude, sun and strength, then the throughput of every
 // group of wavelengths.
-layout(std430, binding = 9) restrict buffer WalkBuffer { Vec4 walks[]; };
+layout(std430, binding = OWN + 1) restrict buffer WalkBuffer { Vec4 walks[]; };
 // By lane: walks done, vertices of this walk, whether its first one is on the ground.
-layout(std430, binding = 10) restrict buffer CountBuffer { ivec4 counts[]; };
+layout(std430, binding = OWN + 2) restrict buffer CountBuffer { ivec4 counts[]; };
 // By lane: sums over finished blocks and over the block in progress, each of inscatter and of ground.
-layout(std430, binding = 11) restrict buffer SumBuffer { Vec4 sums[]; };
-layout(std430, binding = 12) restrict buffer UnfinishedBuffer { uint unfinished; };
+layout(std430, binding = OWN + 3) restrict buffer SumBuffer { Vec4 sums[]; };
+layout(std430, binding = OWN + 4) restrict buffer UnfinishedBuffer { uint unfinished; };
 
 #include "methods/path.glsl"
 

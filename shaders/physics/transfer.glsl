@@ -9,3 +9,19 @@ Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
 
 // Radiance of the Lambertian ground under an irradiance of 1 on a horizontal plane, 1/sr.
 Vec4 lambertian(int group) { return ground_albedo(group) / PI; }
+
+// Radiance from one sample of the view ray under one sun, for columns to the camera and to the sun
+// together.
+void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_SIZE),
+                   ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), Real weight, int sun,
+                   INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 source = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      source = source + scattering_phase[c * GROUPS_SIZE + group] * density[c];
+    }
+    Vec4 light = transmittance_of(column, group) * weight;
+    if (MANY_SUNS) light = light * sun_weight(sun, group);
+    inscatter[group] = inscatter[group] + source * light;
+  }
+}

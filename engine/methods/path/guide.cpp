@@ -54,7 +54,8 @@ Cumulative cumulative_phase(const P& p, int c) {
     double low = mean_phase(p, c, node), high = mean_phase(p, c, node + 1);
     for (int k = 0; k < parts; ++k) {
       double x = (k + 0.5) / parts;
-      double value = low > 0 && high > 0 ? low * std::pow(high / low, x) : low + x * (high - low);
+      double value =
+          low > 0 && high > 0 ? low * std::pow(high / low, x) : low + x * (high - low);
       result.mass.push_back(result.mass.back() +
                             value * std::sin(from + width * x) * width / parts);
       result.angle_rad.push_back(from + width * (k + 1) / parts);

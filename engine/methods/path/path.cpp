@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/methods/path/guide.h"
+#include "engine/methods/raymarch/raymarch.h"
 #include "spirv/path.spv.h"
 #include "spirv/path_finish.spv.h"
-#include "spirv/path_first.spv.h"
 
 namespace cyanometer {
 namespace {
@@ -16,6 +16,10 @@ struct Push {
   std::int32_t first_ray, rays_in_tile, slices, walks_of_ray, orders, steps;
   std::uint32_t seed, fresh;
 };
+
+/// Gauss nodes of the first order on each smooth piece of a ray. Its error is bounded by that
+/// of half as many nodes (path_finish.comp).
+constexpr double first_order_nodes = 24;
 
 /// Segments of each half of a ray that a step looks at.
 constexpr int segments = 8;
@@ -48,9 +52,9 @@ std::shared_ptr<const Guide> guide_of(Tracer& tracer, const UploadedScene& scene
 class PathTracing final : public Method {
  public:
   explicit PathTracing(vulkan::Device& device)
-      : first_(device, path_first_spirv, UploadedScene::bindings + 1, sizeof(Push)),
+      : first_order_(make_raymarch(device)),
         walk_(device, path_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-        finish_(device, path_finish_spirv, UploadedScene::bindings + 2, sizeof(Push)),
+        finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(Push)),
         unfinished_(device, sizeof(std::uint32_t), vulkan::Memory::host) {}
 
   const MethodDescription& description() const override { return path_description(); }
@@ -62,7 +66,9 @@ class PathTracing final : public Method {
     constexpr std::int64_t fewest = 2048, most = 1 << 18, steps = 16;
     std::int64_t lanes =
         std::clamp(pacer.evaluations() / (steps * cost_of_step(scene)), fewest, most);
-    return static_cast<int>(std::max<std::int64_t>(lanes / slices_for(walks_of(options)), 64));
+    int rays =
+        static_cast<int>(std::max<std::int64_t>(lanes / slices_for(walks_of(options)), 64));
+    return std::min(rays, first_order_->rays_at_once(scene, first_order(1), pacer));
   }
 
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
@@ -78,9 +84,10 @@ class PathTracing final : public Method {
               .seed = static_cast<std::uint32_t>(options.at("seed")),
               .fresh = 1};
     reserve(tracer.device, scene, push);
-    light_first_order(tracer, scene, tile, push);
+    light_first_order(tracer, scene, tile);
     if (walks > 0) walk(tracer, scene, push);
-    tracer.commands.dispatch(finish_, scene.constants(), scene.bind({tile.values, *sums_}),
+    tracer.commands.dispatch(finish_, scene.constants(),
+                             scene.bind({tile.values, *sums_, *coarse_}),
                              vulkan::bytes_of(push), {vulkan::groups_for(tile.rays, 64)});
     tracer.submit();
   }
@@ -117,13 +124,19 @@ class PathTracing final : public Method {
     grow(walks_, lanes * vec4 * (2 + groups));
     grow(counts_, lanes * vec4);
     grow(sums_, lanes * vec4 * 4 * groups);
+    grow(coarse_, push.rays_in_tile * vec4 * 2 * groups);
   }
 
-  void light_first_order(Tracer& tracer, const UploadedScene& scene, const Tile& tile,
-                         const Push& push) {
-    tracer.commands.dispatch(first_, scene.constants(), scene.bind({tile.values}),
-                             vulkan::bytes_of(push), {vulkan::groups_for(tile.rays, 64)});
-    tracer.submit();
+  static MethodOptions first_order(double share) {
+    return {{"view_nodes", share * first_order_nodes}};
+  }
+
+  /// Into the tile; that of half the nodes into `coarse_`.
+  void light_first_order(Tracer& tracer, const UploadedScene& scene, const Tile& tile) {
+    std::size_t radiances = std::size_t{2} * scene.groups() * tile.rays * sizeof(glm::vec4);
+    first_order_->trace(tracer, scene, first_order(0.5), tile);
+    tracer.commands.copy({tile.values, 0, radiances}, {*coarse_, 0, radiances});
+    first_order_->trace(tracer, scene, first_order(1), tile);
   }
 
   void walk(Tracer& tracer, const UploadedScene& scene, Push push) {
@@ -135,8 +148,8 @@ class PathTracing final : public Method {
     std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene);
     std::int64_t most = std::max(most_loop_iterations / loops_of_step(scene), 1);
     do {
-      push.steps =
-          static_cast<int>(std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));
+      push.steps = static_cast<int>(
+          std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));
       tracer.commands.fill(unfinished_, 0);
       tracer.commands.dispatch(walk_, constants, bindings, vulkan::bytes_of(push),
                                {vulkan::groups_for(lanes, 64)});
@@ -145,8 +158,9 @@ class PathTracing final : public Method {
     } while (unfinished_.as<std::uint32_t>()[0] != 0);
   }
 
-  vulkan::Kernel first_, walk_, finish_;
-  std::optional<vulkan::Buffer> walks_, counts_, sums_;
+  std::unique_ptr<Method> first_order_;
+  vulkan::Kernel walk_, finish_;
+  std::optional<vulkan::Buffer> walks_, counts_, sums_, coarse_;
   vulkan::Buffer unfinished_;
 };
 

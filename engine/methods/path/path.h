@@ -1,4 +1,5 @@
-// All orders by Monte Carlo, the reference that states its own error: shaders/methods/path.glsl.
+// All orders by Monte Carlo, the reference that states its own error:
+// shaders/methods/path.glsl.
 #pragma once
 
 #include "engine/methods/method.h"
