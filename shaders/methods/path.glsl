@@ -149,13 +149,14 @@ Real stretched_rate(Stretch stretch, Real x) {
   return stretch.length_km * (1.0 + stretch.bend) * (inverse * inverse);
 }
 
-// Segment i of 2 SEGMENTS, in the order of travel: where it begins and ends.
+// A segment of one half, in the order of travel: where it begins and ends.
 struct Segment {
   bool back;
   Real begin;
   Real end;
 };
 
+// Segment i of 2 SEGMENTS.
 Segment segment_at(int i) {
   Segment segment;
   segment.back = i < SEGMENTS;
@@ -165,6 +166,16 @@ Segment segment_at(int i) {
   segment.begin = segment.back ? above : below;
   segment.end = segment.back ? below : above;
   return segment;
+}
+
+// Part i of PARTS of a segment.
+CONSTANT int PARTS = 8;
+Segment part_at(Segment whole, int i) {
+  Segment part;
+  part.back = whole.back;
+  part.begin = whole.begin + (whole.end - whole.begin) * (Real(i) / Real(PARTS));
+  part.end = whole.begin + (whole.end - whole.begin) * (Real(i + 1) / Real(PARTS));
+  return part;
 }
 
 // Mean of a density between two altitudes, given its values there: exact for exponentials.
@@ -177,8 +188,121 @@ Real mean_density(int c, Real from_h, Real to_h, Real from, Real to) {
   return (from + 4.0 * relative_density(0.5 * (from_h + to_h), c) + to) / 6.0;
 }
 
-// What a scattering or a reflection is worth to the walk, summed over the wavelengths.
 Real total(Vec4 v) { return v.x + v.y + v.z + v.w; }
+Real smallest(Vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+
+// A choice among segments by what they scatter of a walk's light, summed over the wavelengths: for each
+// of these it is the balance heuristic [Veach 1997, section 9.2].
+struct Choice {
+  Segment segment;
+  Real mass;    // that it scatters
+  Real all;     // that all of them scatter
+  Real slope;   // of the logarithm of its density along the segment
+  Real pick;    // what is left of the random number where none was chosen
+};
+
+// Looks at the segments [first, end) of a leg, or at parts of one of them, and picks one: by mass, or
+// the one that is `wanted` where that is not negative. `light` comes in at the first one and goes out
+// behind the last; `light_there` is that at the chosen one.
+Choice choose_segment(Leg leg, bool parts, Segment whole, int first, int end, Real pick, int wanted,
+                      INOUT_ARRAY(Vec4, light, GROUPS_SIZE),
+                      INOUT_ARRAY(Vec4, light_there, GROUPS_SIZE)) {
+  Choice choice;
+  choice.segment = whole;
+  choice.mass = 0.0;
+  choice.all = 0.0;
+  choice.slope = 0.0;
+  choice.pick = pick;
+  Real density[MEDIA_SIZE];
+  Vec4 depth[GROUPS_SIZE];
+  Real h = 0.0;
+  Real yield = 0.0;  // scattered light, 1/km
+  for (int i = first; i < end; ++i) {
+    Segment segment = segment_at(i);
+    if (parts) segment = part_at(whole, i);
+    Stretch stretch = stretch_of(leg, segment.back);
+    Real begin_km = stretched_distance(stretch, segment.begin);
+    Real end_km = stretched_distance(stretch, segment.end);
+    if (i == first) {
+      h = altitude_after(leg.low_h, stretch.mu, begin_km);
+      densities(h, density);
+      UNROLL for (int group = 0; group < GROUPS; ++group) {
+        UNROLL for (int c = 0; c < MEDIA; ++c) {
+          yield += density[c] * total(scattering(c, group) * light[group]);
+        }
+      }
+    }
+    Real next_h = altitude_after(leg.low_h, stretch.mu, end_km);
+    Real column[MEDIA_SIZE];
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      Real next = relative_density(next_h, c);
+      column[c] = mean_density(c, h, next_h, density[c], next) * abs(end_km - begin_km);
+      density[c] = next;
+    }
+    Real thinnest = 1e30;
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
+      depth[group] = Vec4(0.0);
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
+        depth[group] = depth[group] + extinction(c, group) * column[c];
+      }
+      thinnest = min(thinnest, smallest(depth[group]));
+    }
+    // The light at the end is kept apart from what all wavelengths lose, which may be beyond a float.
+    Real left = exp(-thinnest);
+    Real mass = 0.0;
+    Real next_yield = 0.0;
+    bool chosen_light = false;
+    Vec4 light_here[GROUPS_SIZE];
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
+      Vec4 scattered = Vec4(0.0);
+      Vec4 at_end = Vec4(0.0);
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
+        scattered = scattered + scattering(c, group) * column[c];
+        at_end = at_end + scattering(c, group) * density[c];
+      }
+      light_here[group] = light[group];
+      Vec4 at_end_light = light[group] * exp(Vec4(thinnest) - depth[group]);
+      light[group] = at_end_light * left;
+      // light x (1 - e^-depth) / depth, also where depth is 0.
+      mass += total(scattered * (light_here[group] * 1.000001 - light[group]) /
+                    (depth[group] + 0.000001));
+      next_yield += total(at_end_light * at_end);
+    }
+    choice.all += mass;
+    bool by_mass = wanted < 0;
+    if (by_mass ? choice.pick * choice.all < mass : i == wanted) {
+      Real begin_rate = yield * stretched_rate(stretch, segment.begin);
+      Real end_rate = next_yield * stretched_rate(stretch, segment.end);
+      choice.segment = segment;
+      choice.mass = mass;
+      choice.slope = begin_rate > 0.0 && end_rate > 0.0
+                         ? clamp(log(end_rate / begin_rate) - thinnest, -1e4, 1e4) : 0.0;
+      if (by_mass) choice.pick = choice.pick * choice.all / mass;
+      chosen_light = true;
+    } else if (by_mass && choice.all > mass) {
+      choice.pick = (choice.pick * choice.all - mass) / (choice.all - mass);
+    }
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
+      if (chosen_light) light_there[group] = light_here[group];
+    }
+    h = next_h;
+    yield = next_yield * left;
+  }
+  return choice;
+}
+
+// The point at u of a density proportional to e^(slope x) over [0, 1], and the density at x.
+Real tilted_point(Real slope, Real u) {
+  Real s = abs(slope);
+  if (s < 0.05) return u;
+  Real x = -log(1.0 - u * (1.0 - exp(-s))) / s;
+  return slope < 0.0 ? x : 1.0 - x;
+}
+
+Real tilted_density(Real slope, Real x) {
+  Real s = abs(slope);
+  return s < 0.05 ? 1.0 : s * exp(-s * (slope < 0.0 ? x : 1.0 - x)) / (1.0 - exp(-s));
+}
 
 // Where a walk goes next.
 struct Flight {
@@ -193,41 +317,7 @@ struct Flight {
 // falls off along a walk, because a choice that leads nowhere costs a long walk all of its past.
 Real even_share(int vertices) { return 0.1 / Real(1 + vertices * vertices); }
 
-// A segment while it may be the one.
-struct Candidate {
-  int segment;
-  Real mass;   // its part of `all`
-  Real slope;  // of the logarithm of the density within it
-};
-
-// The point at u of a density proportional to e^(slope x) over [0, 1], and the density at x.
-Real tilted_point(Real slope, Real u) {
-  return abs(slope) > 0.05 ? log(1.0 + u * (exp(slope) - 1.0)) / slope : u;
-}
-Real tilted_density(Real slope, Real x) {
-  return abs(slope) > 0.05 ? slope * exp(slope * x) / (exp(slope) - 1.0) : 1.0;
-}
-
-Flight place_in(Leg leg, Candidate chosen, Real mass_share, Real evenly, int segments, bool even, Real u) {
-  Flight flight;
-  flight.ends = false;
-  flight.ground = false;
-  Segment segment = segment_at(chosen.segment);
-  Stretch stretch = stretch_of(leg, segment.back);
-  Real slope = abs(chosen.slope) > 0.05 ? chosen.slope : 0.0;
-  Real part = clamp(even ? u : tilted_point(slope, u), 0.0, 1.0);
-  Real x = segment.begin + (segment.end - segment.begin) * part;
-  Real from_lowest_km = stretched_distance(stretch, x);
-  flight.distance_km = segment.back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
-  flight.altitude_km = clamp(altitude_after(leg.low_h, stretch.mu, from_lowest_km), 0.0,
-                             scene.thickness_km);
-  Real density = (1.0 - evenly) * mass_share * tilted_density(slope, part) + evenly / Real(segments);
-  flight.density = density * Real(SEGMENTS) / stretched_rate(stretch, x);
-  return flight;
-}
-
-// Draws the next vertex with a density close to throughput x scattering x transmittance, summed over
-// the wavelengths: for each of them this is the balance heuristic [Veach 1997, section 9.2].
+// Draws the next vertex with a density close to throughput x scattering x transmittance.
 Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), Vec4 u) {
   int first = leg.back_km > 0.0 ? 0 : SEGMENTS;
   int end = leg.on_km > 0.0 ? 2 * SEGMENTS : SEGMENTS;
@@ -235,84 +325,47 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
   Real evenly = even_share(walk.vertices);
   bool even = u.x < evenly;
   Real pick = even ? u.x / evenly : (u.x - evenly) / (1.0 - evenly);
-  int wanted = even ? first + min(int(pick * Real(segments)), segments - 1) : -1;
 
-  Real density[MEDIA_SIZE];
-  Vec4 transmitted[GROUPS_SIZE];  // throughput behind the segments so far
-  Real h = walk.altitude_km;
-  Real yield = 0.0;               // scattered, 1/km
-  densities(h, density);
+  Vec4 light[GROUPS_SIZE];
+  Vec4 light_there[GROUPS_SIZE];
   UNROLL for (int group = 0; group < GROUPS; ++group) {
-    transmitted[group] = throughput[group];
-    UNROLL for (int c = 0; c < MEDIA; ++c) {
-      yield += density[c] * total(scattering(c, group) * throughput[group]);
-    }
+    light[group] = throughput[group];
+    light_there[group] = throughput[group];
   }
-
-  Real all = 0.0;
-  Candidate chosen;
-  chosen.segment = first;
-  chosen.mass = 0.0;
-  chosen.slope = 0.0;
-  for (int i = first; i < end; ++i) {
-    Segment segment = segment_at(i);
-    Stretch stretch = stretch_of(leg, segment.back);
-    Real end_km = stretched_distance(stretch, segment.end);
-    Real width_km = abs(end_km - stretched_distance(stretch, segment.begin));
-    Real next_h = altitude_after(leg.low_h, stretch.mu, end_km);
-    Real mean[MEDIA_SIZE];
-    UNROLL for (int c = 0; c < MEDIA; ++c) {
-      Real next = relative_density(next_h, c);
-      mean[c] = mean_density(c, h, next_h, density[c], next) * width_km;
-      density[c] = next;
-    }
-    Real mass = 0.0;
-    Real next_yield = 0.0;
-    UNROLL for (int group = 0; group < GROUPS; ++group) {
-      Vec4 depth = Vec4(0.0);
-      Vec4 scattered = Vec4(0.0);
-      Vec4 at_end = Vec4(0.0);
-      UNROLL for (int c = 0; c < MEDIA; ++c) {
-        depth = depth + extinction(c, group) * mean[c];
-        scattered = scattered + scattering(c, group) * mean[c];
-        at_end = at_end + scattering(c, group) * density[c];
-      }
-      // (1 - e^-x) / x is at least half of 1 / (1 + x / 2), and never more.
-      mass += total(transmitted[group] * scattered / (1.0 + 0.5 * depth));
-      transmitted[group] = transmitted[group] * exp(-depth);
-      next_yield += total(transmitted[group] * at_end);
-    }
-    all += mass;
-    if (even ? i == wanted : pick * all < mass) {
-      Real begin_rate = yield * stretched_rate(stretch, segment.begin);
-      Real end_rate = next_yield * stretched_rate(stretch, segment.end);
-      chosen.segment = i;
-      chosen.mass = mass;
-      chosen.slope = begin_rate > 0.0 && end_rate > 0.0
-                         ? clamp(log(end_rate / begin_rate), -20.0, 20.0) : 0.0;
-      pick = even ? pick : pick * all / mass;
-    } else if (!even && all > mass) {
-      pick = (pick * all - mass) / (all - mass);
-    }
-    h = next_h;
-    yield = next_yield;
-  }
-
+  Segment none = segment_at(first);
+  Choice choice = choose_segment(leg, false, none, first, end, pick,
+                                 even ? first + min(int(pick * Real(segments)), segments - 1) : -1,
+                                 light, light_there);
   Real ground = 0.0;
   if (leg.meets_ground) {
     UNROLL for (int group = 0; group < GROUPS; ++group) {
-      ground += total(transmitted[group] * ground_albedo(group));
+      ground += total(light[group] * ground_albedo(group));
     }
   }
-  all += ground;
+  Real all = choice.all + ground;
   Flight flight;
-  flight.ground = leg.meets_ground && (segments == 0 || (!even && pick * all < ground));
+  flight.ground = leg.meets_ground && (segments == 0 || (!even && choice.pick * all < ground));
   flight.ends = segments == 0 ? !(ground > 0.0) : !even && !(all > 0.0);
   flight.distance_km = leg.back_km + leg.on_km;
   flight.altitude_km = 0.0;
   flight.density = segments == 0 ? 1.0 : (1.0 - evenly) * ground / all;
   if (flight.ends || flight.ground) return flight;
-  return place_in(leg, chosen, all > 0.0 ? chosen.mass / all : 0.0, evenly, segments, even, u.y);
+
+  Choice part = choose_segment(leg, true, choice.segment, 0, PARTS, u.y,
+                               even ? min(int(u.y * Real(PARTS)), PARTS - 1) : -1, light_there, light);
+  Stretch stretch = stretch_of(leg, part.segment.back);
+  Real within = clamp(even ? u.z : tilted_point(part.slope, u.z), 0.0, 1.0);
+  Real x = part.segment.begin + (part.segment.end - part.segment.begin) * within;
+  Real from_lowest_km = stretched_distance(stretch, x);
+  flight.distance_km = part.segment.back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
+  flight.altitude_km = clamp(altitude_after(leg.low_h, stretch.mu, from_lowest_km), 0.0,
+                             scene.thickness_km);
+  Real by_mass = all > 0.0 && part.all > 0.0
+                     ? choice.mass / all * (part.mass / part.all) * Real(PARTS) : 0.0;
+  Real density = (1.0 - evenly) * by_mass * tilted_density(part.slope, within) +
+                 evenly / Real(segments);
+  flight.density = density * Real(SEGMENTS) / stretched_rate(stretch, x);
+  return flight;
 }
 
 // --- Where to: densities over directions ------------------------------------------------------------
@@ -445,6 +498,13 @@ Real horizon_density(Aim aim, Vec3 direction) {
   return around * up;
 }
 
+// Of directions drawn about the sun.
+Real peak_density(Vec3 sun, Vec3 direction) {
+  Real share[MEDIA_SIZE];
+  UNROLL for (int c = 0; c < MEDIA; ++c) share[c] = guide_peak_share(c);
+  return mixed_phase(share, scattering_angle(direction, sun));
+}
+
 // What scatters at a vertex: the ground, or the constituents by share.
 struct Scatterer {
   bool ground;
@@ -473,11 +533,7 @@ Real direction_density(Scatterer scatterer, Aim aim, Vec3 sun, ARRAY(Real, share
   Real own = scatterer.ground ? max(direction.z, 0.0) / PI
                               : mixed_phase(share, scattering_angle(direction, scatterer.incoming));
   Real density = (1.0 - aim.sun - aim.horizon) * own;
-  if (aim.sun > 0.0) {
-    Real peak[MEDIA_SIZE];
-    UNROLL for (int c = 0; c < MEDIA; ++c) peak[c] = guide_peak_share(c);
-    density += aim.sun * mixed_phase(peak, scattering_angle(direction, sun));
-  }
+  if (aim.sun > 0.0) density += aim.sun * peak_density(sun, direction);
   if (aim.horizon > 0.0) density += aim.horizon * horizon_density(aim, direction);
   return density;
 }
@@ -600,7 +656,9 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
     throughput[group] = throughput[group] * scattered[group] / proposed;
   }
 
+  // Roulette, on what the walk may still find: towards the sun a forward peak lies ahead.
   Real strength = strongest(throughput);
+  if (aim.sun > 0.0) strength *= 1.0 + 4.0 * PI * peak_density(sun.direction, walk.direction);
   if (!(strength > 0.0)) return false;
   if (walk.vertices == 1) {
     walk.strength = strength;

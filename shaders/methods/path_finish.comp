@@ -24,8 +24,8 @@ Vec4 slice_sum(int i, int slice, int g) {
 
 // Squared standard error of the mean of all walks, from the slices, whose sums are independent. A few
 // heavy walks that most slices have not met make such an estimate too small: where one slice holds more
-// of the squares than one of so many normal ones would in a thousand cases, its part counts
-// fully once more.
+// of the squares than one of so many normal ones would in a thousand cases, the excess counts four times:
+// the error is doubled where a single slice is all there is.
 Vec4 variance_of_mean(int i, int g, Vec4 mean) {
   // One walk alone says nothing of its error but that it is about its size.
   if (push.slices == 1) return mean * mean;
@@ -39,7 +39,7 @@ Vec4 variance_of_mean(int i, int g, Vec4 mean) {
   }
   Real slices = Real(push.slices);
   Vec4 expected = squares * min((2.0 * log(slices) + 8.0) / slices, 1.0);
-  squares += max(largest - expected, Vec4(0.0)) * slices;
+  squares += 3.0 * max(largest - expected, Vec4(0.0));
   return squares * (slices / (slices - 1.0)) /
          (Real(push.walks_of_ray) * Real(push.walks_of_ray));
 }
