@@ -15,7 +15,7 @@ class Walks {
 
   explicit Walks(const Problem& problem, std::uint32_t seed = 0)
       : p_(pack<double>(problem)), orders_(problem.scattering_orders), seed_(seed) {
-    p_.path_guide = path_guide(p_);
+    set_path_guide(p_, problem);
   }
 
   /// What one walk finds from the second order on, by wavelength; `ray` and `number` only
