@@ -251,13 +251,15 @@ Real mean_density(int c, Real from_h, Real to_h, Real from, Real to) {
 Real total(Vec4 v) { return v.x + v.y + v.z + v.w; }
 Real smallest(Vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
-// The light that scatters at a point of a leg, at a distance from its lowest point.
+// The light that scatters at a point of a leg, at a distance from its lowest point. At the first vertex
+// that of the sun is not wanted: it is the first order.
 Real light_ahead(Walk walk, Leg leg, bool back, Real from_lowest_km, Real h) {
   SunRay sun = sun_from(walk);
   Real t = back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
   Real radius = scene.planet_radius_km + walk.altitude_km;
   Real mu_sun = (radius * sun.direction.z + t * dot(walk.direction, sun.direction)) /
                 (scene.planet_radius_km + h);
+  if (walk.vertices == 0) return sky_light(sky_place(h, mu_sun));
   return path_guide[light_offset() + light_place(h, mu_sun)];
 }
 

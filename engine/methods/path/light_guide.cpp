@@ -177,14 +177,16 @@ class Lighting {
   std::vector<Sky> sky_;
 };
 
+/// Where the estimate knows of no light, walks still look.
 void append_light(std::vector<double>& guide, const std::vector<double>& light) {
   double most = *std::max_element(light.begin(), light.end());
-  // Where the estimate knows of no light, walks still look.
   for (double value : light) guide.push_back(std::max(value, 1e-7 * most));
 }
 
 void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
-  for (const Sky& sky : skies) guide.push_back(total(sky));
+  std::vector<double> light;
+  for (const Sky& sky : skies) light.push_back(total(sky));
+  append_light(guide, light);
   for (const Sky& sky : skies) {
     double sum = 0, all = std::max(total(sky), 1e-300);
     for (double cell : sky) {
