@@ -100,6 +100,7 @@ struct Physics {
 #include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
+#include "shaders/methods/moments.glsl"
 #include "shaders/methods/raymarch.glsl"
 #include "shaders/methods/path.glsl"
   // clang-format on
