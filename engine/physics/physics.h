@@ -75,6 +75,7 @@ struct Physics {
 
   // Of the method `path` alone (engine/methods/path/guide.h).
   int SEGMENTS = 8;
+  bool GUIDED = false;
   std::vector<Real> path_guide;
 
   const MediumData& medium(int c) const { return media[c]; }

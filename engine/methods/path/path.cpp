@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/methods/path/guide.h"
+#include "engine/methods/path/light_guide.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "spirv/path.spv.h"
 #include "spirv/path_finish.spv.h"
@@ -39,14 +40,15 @@ struct Guide : Tables {
   vulkan::Buffer buffer;
 };
 
-std::shared_ptr<const Guide> guide_of(Tracer& tracer, const UploadedScene& scene) {
+std::shared_ptr<const Guide> guide_of(Tracer& tracer, const UploadedScene& scene, bool guided) {
   auto make = [&] {
     Physics<double> physics = pack<double>(scene.problem());
-    std::vector<double> values = path_guide(physics);
+    set_path_guide(physics, scene.problem());
+    const std::vector<double>& values = physics.path_guide;
     return std::make_shared<const Guide>(tracer.device,
                                          std::vector<float>(values.begin(), values.end()));
   };
-  return tracer.tables.get<Guide>("path guide " + scene.air_key(), make);
+  return tracer.tables.get<Guide>((guided ? "path, light " : "path ") + scene.air_key(), make);
 }
 
 class PathTracing final : public Method {
@@ -147,11 +149,13 @@ class PathTracing final : public Method {
   }
 
   void walk(Tracer& tracer, const UploadedScene& scene, Push push) {
-    std::shared_ptr<const Guide> guide = guide_of(tracer, scene);
+    bool guided = needs_light_guide(scene.problem());
+    std::shared_ptr<const Guide> guide = guide_of(tracer, scene, guided);
     std::vector<vulkan::Binding> bindings =
         scene.bind({guide->buffer, *walks_, *counts_, *sums_, unfinished_});
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
+    constants.push_back(guided);
     std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
     std::int64_t most = std::max(most_loop_iterations / loops_of_step(scene), 1);
     do {
