@@ -25,6 +25,7 @@ layout(push_constant) uniform Push {
   int up, down;        // directions above and below the horizon
   int azimuths;        // in half a turn
   int steps;           // nodes of a ray
+  int first_steps;     // of order one, on each lit part
   int first, end;      // invocations of this dispatch
   int first_azimuth, end_azimuth;  // of order one in this dispatch
   int first_altitude;              // of the rows there are now

@@ -78,7 +78,7 @@ int orders_until_geometric(const Problem& problem) {
     double air = 1.5 * depth / (1 + 1.5 * depth);
     largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
   }
-  return 3 + static_cast<int>(std::min(4 * largest / std::max(1 - largest, 0.05), 60.0));
+  return 2 + static_cast<int>(std::min(2.5 * largest / std::max(1 - largest, 0.04), 60.0));
 }
 
 template physics::Physics<float>::MomentGrid moment_grid<float>(const Problem&, int, int);

@@ -19,15 +19,13 @@ using Grid = MomentTables::Grid;
 /// shaders/methods/moments_device.glsl
 struct Push {
   Grid grid;
-  std::int32_t fine_altitudes, up, down, azimuths, steps, first, end, first_azimuth,
-      end_azimuth, first_altitude, last, tail;
+  std::int32_t fine_altitudes, up, down, azimuths, steps, first_steps, first, end,
+      first_azimuth, end_azimuth, first_altitude, last, tail;
 };
 struct RefinePush {
   MomentSolver::Axis axis;
   std::int32_t first, end;
 };
-
-constexpr int piece_nodes = 6;  // PIECE_NODES of shaders/methods/moments_first.comp
 
 /// Nodes of a finer table that linear interpolation reads as if it were cubic.
 int finer(int nodes, int most) {
@@ -70,14 +68,14 @@ class Solution {
   }
 
   void trace_first_order(const vulkan::Kernel& kernel) {
-    int rounds = most_pieces(scene_) * rounds_of_a_piece(scene_, piece_nodes);
+    int rounds = 2 * rounds_of_a_piece(scene_, first_steps());
     int at_once = std::max(most_loop_iterations / rounds, 1);
     require_rounds(scene_, rounds);
     for (int first = 0; first < settings_.azimuths; first += at_once) {
       Push part = push();
       part.first_azimuth = first;
       part.end_azimuth = std::min(first + at_once, settings_.azimuths);
-      std::int64_t nodes = (part.end_azimuth - first) * 2 * piece_nodes;
+      std::int64_t nodes = (part.end_azimuth - first) * 4 * first_steps() / 3;
       run(kernel, grid_.altitudes * rays() * grid_.suns, nodes * 12 * media(), part);
     }
   }
@@ -126,6 +124,10 @@ class Solution {
   int media() const { return std::max(scene_.media(), 1); }
   int slots() const { return slots_of(settings_.degree); }
   int rays() const { return up_ + down_; }
+  /// The light of the sun changes faster than what it causes.
+  int first_steps() const {
+    return std::min(settings_.steps + 4, int{Physics<float>::MOST_GAUSS_NODES});
+  }
   // Sizes in values of four wavelengths, as shaders/methods/moments_device.glsl counts them.
   std::int64_t row_values() const {  // of one altitude
     return std::int64_t{rays()} * settings_.steps * settings_.suns * (settings_.degree + 2) *
@@ -154,6 +156,7 @@ class Solution {
             down_,
             settings_.azimuths,
             settings_.steps,
+            first_steps(),
             0,
             0,
             0,
