@@ -68,6 +68,10 @@ struct Physics {
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
 
+  // Tables, each with its constants.
+  int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
+  std::vector<Vec4> optical_depths;
+
   const MediumData& medium(int c) const { return media[c]; }
   Vec4 extinction(int c, int group) const { return spectra[(2 + 3 * c) * GROUPS + group]; }
   Vec4 scattering(int c, int group) const { return spectra[(3 + 3 * c) * GROUPS + group]; }
@@ -88,6 +92,7 @@ struct Physics {
 #include "shaders/physics/sun.glsl"
 #include "shaders/physics/camera.glsl"
 #include "shaders/physics/transfer.glsl"
+#include "shaders/tables/optical_depth.glsl"
 #include "shaders/methods/nishita.glsl"
   // clang-format on
 };

@@ -75,6 +75,16 @@ Real tent_column(Real h, Real mu, Real length_km, int c) {
   return plain_column(h, mu, low, centre, c) + plain_column(h, mu, centre, high, c);
 }
 
+// Of one piece of a tabulated profile, whose node is known: no search.
+Real node_column(Vec4 node, Real h, Real mu, Real from_km, Real to_km) {
+  Real column = 0.0;
+  UNROLL for (int i = 0; i < 4; ++i) {
+    Real distance_km = from_km + (to_km - from_km) * gauss4_node(i);
+    column += gauss4_weight(i) * density_above_node(node, altitude_after(h, mu, distance_km));
+  }
+  return column * (to_km - from_km);
+}
+
 // From node to node, in two halves: a node may span several scale heights.
 Real table_column(Real h, Real mu, Real length_km, int c) {
   MediumData m = medium(c);
@@ -85,9 +95,10 @@ Real table_column(Real h, Real mu, Real length_km, int c) {
                      ? distance_up_to(profile_nodes[m.profile_node + i].x, h, mu, length_km)
                      : length_km;
     if (to_km <= from_km) continue;
+    Vec4 node = profile_nodes[m.profile_node + i - 1];
     Real middle_km = 0.5 * (from_km + to_km);
-    column += plain_column(h, mu, from_km, middle_km, c);
-    column += plain_column(h, mu, middle_km, to_km, c);
+    column += node_column(node, h, mu, from_km, middle_km);
+    column += node_column(node, h, mu, middle_km, to_km);
     from_km = to_km;
   }
   return column;
@@ -103,8 +114,10 @@ Real column_upwards(Real h, Real mu, Real length_km, int c) {
   return table_column(h, mu, length_km, c);
 }
 
-// Columns of all constituents over the first `length_km` of a ray that stays in the shell.
-void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
+// Columns of the constituents [first, end) over the first `length_km` of a ray that stays in the shell;
+// 0 for the others.
+void some_columns_along(Real h, Real mu, Real length_km, int first, int end,
+                        OUT_ARRAY(Real, column, MEDIA_SIZE)) {
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
   Real to_lowest_km = min(max(-(scene.planet_radius_km + h) * mu, 0.0), length_km);
   Real low_h = altitude_after(h, mu, to_lowest_km);
@@ -118,9 +131,14 @@ void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDI
     Real part_km = part == 0 ? to_lowest_km : length_km - to_lowest_km;
     if (part_km <= 0.0) continue;
     UNROLL for (int c = 0; c < MEDIA; ++c) {
-      column[c] += column_upwards(low_h, part_mu, part_km, c);
+      if (c >= first && c < end) column[c] += column_upwards(low_h, part_mu, part_km, c);
     }
   }
+}
+
+// Of all constituents.
+void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
+  some_columns_along(h, mu, length_km, 0, MEDIA, column);
 }
 
 void columns_to_top(Real h, Real mu, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
