@@ -1,4 +1,5 @@
 // The methods there are.
+#include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
 
@@ -7,6 +8,7 @@ namespace cyanometer {
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
+      hillaire_description(),
   };
   return all;
 }
@@ -14,6 +16,7 @@ const std::vector<MethodDescription>& methods() {
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
+  all.push_back(make_hillaire(device));
   return all;
 }
 

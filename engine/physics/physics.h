@@ -9,9 +9,11 @@
 namespace cyanometer::physics {
 
 using glm::abs;
+using glm::asinh;
 using glm::atan;
 using glm::clamp;
 using glm::cos;
+using glm::cosh;
 using glm::dot;
 using glm::exp;
 using glm::floor;
@@ -24,6 +26,7 @@ using glm::mix;
 using glm::normalize;
 using glm::pow;
 using glm::sin;
+using glm::sinh;
 using glm::sqrt;
 
 #define CONSTANT static constexpr
@@ -71,6 +74,9 @@ struct Physics {
   // Tables, each with its constants.
   int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
   std::vector<Vec4> optical_depths;
+  int MULTIPLE_SUNS = 2, MULTIPLE_ALTITUDES = 2, SKY_AZIMUTHS = 2, SKY_ELEVATIONS = 4;
+  std::vector<Vec4> log_multiple, log_irradiance, sky_view;
+  std::vector<Real> view_columns;
 
   const MediumData& medium(int c) const { return media[c]; }
   Vec4 extinction(int c, int group) const { return spectra[(2 + 3 * c) * GROUPS + group]; }
@@ -94,6 +100,12 @@ struct Physics {
 #include "shaders/physics/transfer.glsl"
 #include "shaders/tables/optical_depth.glsl"
 #include "shaders/methods/nishita.glsl"
+#include "shaders/methods/hillaire/coordinates.glsl"
+#include "shaders/methods/hillaire/march.glsl"
+#include "shaders/methods/hillaire/second_order.glsl"
+#include "shaders/methods/hillaire/multiple.glsl"
+#include "shaders/methods/hillaire/view.glsl"
+#include "shaders/methods/hillaire/sky_view.glsl"
   // clang-format on
 };
 

@@ -11,15 +11,15 @@ layout(std430, binding = 8) restrict buffer OpticalDepthBuffer { Vec4 optical_de
 #include "tables/optical_depth.glsl"
 
 layout(push_constant) uniform Push {
-  int first_texel;
-  int end_texel;
+  int first;
+  int end;
   int first_medium;  // the depths of these constituents are added to those before them
   int end_medium;
 } push;
 
 void main() {
-  int texel = push.first_texel + int(gl_GlobalInvocationID.x);
-  if (texel >= push.end_texel) return;
+  int texel = push.first + int(gl_GlobalInvocationID.x);
+  if (texel >= push.end) return;
   load_scene();
   load_media();
   OpticalDepthRay ray = optical_depth_ray(

@@ -1,0 +1,84 @@
+// The tables of Hillaire's method and how they are made; each is kept under what it depends on.
+#pragma once
+
+#include <memory>
+
+#include "engine/methods/method.h"
+#include "engine/methods/tables/optical_depth_table.h"
+
+namespace cyanometer::hillaire {
+
+struct Sizes {
+  OpticalDepthSize optical_depth;
+  int multiple_suns, multiple_altitudes, directions, multiple_samples;
+  int azimuths, elevations, view_samples;
+
+  static Sizes of(const MethodOptions& options);
+};
+
+/// Of the air alone.
+struct AirTables final : Tables {
+  AirTables(vulkan::Device& device, const Sizes& sizes, int groups);
+  std::size_t bytes() const override { return log_multiple.size() + log_irradiance.size(); }
+
+  vulkan::Buffer log_multiple, log_irradiance;
+};
+
+/// Columns along the rays from an altitude.
+struct ViewColumns final : Tables {
+  ViewColumns(vulkan::Device& device, int media);
+  std::size_t bytes() const override { return values.size(); }
+
+  vulkan::Buffer values;
+};
+
+/// Ratios over the directions from an altitude under a sun.
+struct SkyView final : Tables {
+  SkyView(vulkan::Device& device, std::size_t bytes);
+  std::size_t bytes() const override { return values.size(); }
+  static std::size_t bytes_of(const UploadedScene& scene, const Sizes& sizes);
+
+  vulkan::Buffer values;
+};
+
+/// All that pixels are made from.
+struct TablesOfView {
+  std::shared_ptr<const OpticalDepthTable> optical_depth;
+  std::shared_ptr<const AirTables> air;
+  std::shared_ptr<const ViewColumns> columns;
+  std::shared_ptr<const SkyView> sky;  ///< null where every pixel is marched
+};
+
+class TableMaker {
+ public:
+  explicit TableMaker(vulkan::Device& device);
+  TablesOfView get(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
+                   bool with_sky);
+
+ private:
+  std::shared_ptr<const AirTables> make_air(Tracer& tracer, const UploadedScene& scene,
+                                            const Sizes& sizes,
+                                            const OpticalDepthTable& optical_depth);
+  std::shared_ptr<const ViewColumns> make_columns(Tracer& tracer, const UploadedScene& scene,
+                                                  const Sizes& sizes,
+                                                  const TablesOfView& tables);
+  std::shared_ptr<const SkyView> make_sky(Tracer& tracer, const UploadedScene& scene,
+                                          const Sizes& sizes, const TablesOfView& tables);
+
+  OpticalDepthTableMaker optical_depths_;
+  vulkan::Kernel multiple_, irradiance_, sum_, columns_, sky_;
+};
+
+/// What all of the method's kernels are specialised by.
+vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes);
+
+/// Whether light may be scattered or reflected more than once.
+bool several_orders(const Problem& problem);
+
+/// Evaluations of the density that one step of a march is worth.
+std::int64_t evaluations_per_step(const UploadedScene& scene);
+
+/// The scale height that steps are fitted to: of the constituent that falls off fastest.
+float scale_height_km(const Problem& problem);
+
+}  // namespace cyanometer::hillaire

@@ -1,0 +1,167 @@
+// What a ray from the camera sees, as columns and ratios. The columns of every constituent, exact, carry
+// nearly all that varies over the sky; the ratios of the scattered light to
+//
+//   column x mean transmittance along the ray
+//
+// are what is left: smooth, so that a small table of them interpolates well. One ratio a scattering
+// constituent, without its phase function, which is applied to each pixel: the aureole stays sharp. One
+// more for all further orders.
+
+// A pixel that shows nothing.
+void leave_out(INOUT(Path) path) {
+  path.length_km = 0.0;
+  path.meets_ground = false;
+}
+
+// The part of a camera's ray that lies in the air.
+SunlitRay view_ray(Path path, Vec3 to_sun) {
+  SunlitRay ray;
+  ray.altitude_km = min(path.altitude_km, scene.thickness_km);
+  ray.mu = path.mu;
+  ray.mu_sun = clamp(dot(path.start, to_sun) / length(path.start), -1.0, 1.0);
+  ray.nu = dot(path.direction, to_sun);
+  ray.length_km = path.length_km;
+  ray.meets_ground = path.meets_ground;
+  return ray;
+}
+
+// The march from the camera. Parallel light: columns of the constituents lit by the sun. A near sun, whose
+// direction changes along the ray: the same times scattering coefficient, phase and irradiance.
+// `path` and the sun's `offset` matter to a near sun alone.
+void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_height_km,
+                bool all_orders, OUT_ARRAY(Real, column, MEDIA_SIZE),
+                OUT_ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
+                OUT_ARRAY(Vec4, further, GROUPS_SIZE)) {
+  Real density[MEDIA_SIZE];
+  Vec4 transmittance[GROUPS_SIZE];
+  Vec4 seen_km[GROUPS_SIZE];
+  Vec4 light[GROUPS_SIZE];
+  Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
+  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    transmittance[group] = Vec4(1.0);
+    further[group] = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) once[c * GROUPS_SIZE + group] = Vec4(0.0);
+  }
+  ShadowedPart shadow;
+  shadow.from_km = 0.0;
+  shadow.to_km = 0.0;
+  if (!NEAR_SUN) shadow = shadowed_part(ray);
+  Steps steps = steps_along(ray, shadow, samples, scale_height_km);
+  int count = number_of(steps);
+  for (int i = 0; i < count; ++i) {
+    Step at = step_of(steps, i);
+    Real h = altitude_after(ray.altitude_km, ray.mu, at.middle_km);
+    Real mu_sun = sun_cosine_after(ray, h, at.middle_km);
+    Real irradiance = 1.0;
+    bool lit = at.lit;
+    densities(h, density);
+    pass_step(density, at.width_km, transmittance, seen_km);
+    if (NEAR_SUN) {
+      Vec3 position = path.start + path.direction * at.middle_km;
+      SunRay sun = sun_ray(position, offset);
+      mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
+      irradiance = sun.irradiance;
+      lit = !meets_ground(h, mu_sun);
+      scattering_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
+    }
+    UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += density[c] * at.width_km;
+    if (lit) {
+      transmittance_to_sun(h, mu_sun, light);
+      UNROLL for (int group = 0; group < GROUPS; ++group) {
+        Vec4 arrived = light[group] * seen_km[group] * irradiance;
+        UNROLL for (int c = 0; c < MEDIA; ++c) {
+          Vec4 scattered = arrived * density[c];
+          if (NEAR_SUN) scattered = scattered * scattering_phase[c * GROUPS_SIZE + group];
+          once[c * GROUPS_SIZE + group] = once[c * GROUPS_SIZE + group] + scattered;
+        }
+      }
+    }
+    if (!all_orders) continue;
+    MultiplePosition place = multiple_position(h, mu_sun);
+    UNROLL for (int group = 0; group < GROUPS; ++group) {
+      Vec4 scattered = Vec4(0.0);
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
+        scattered = scattered + scattering(c, group) * density[c];
+      }
+      further[group] = further[group] + scattered * multiple_scattering(place, group) *
+                                            seen_km[group] * irradiance;
+    }
+  }
+}
+
+// The normalisation: for the columns of the march it makes the ratios, for the exact ones it gives back
+// the radiance.
+Vec4 column_seen(ARRAY(Real, column, MEDIA_SIZE), int group) {
+  Vec4 depth = Vec4(0.0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + extinction(c, group) * column[c];
+  return mean_transmittances(depth);
+}
+
+Vec4 scattering_depth(ARRAY(Real, column, MEDIA_SIZE), int group) {
+  Vec4 depth = Vec4(0.0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + scattering(c, group) * column[c];
+  return depth;
+}
+
+Vec4 ratio_of(Vec4 value, Vec4 to) { return value / max(to, Vec4(1e-30)); }
+
+// Turns what march_view left into ratios.
+void make_ratios(ARRAY(Real, column, MEDIA_SIZE), INOUT_ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
+                 INOUT_ARRAY(Vec4, further, GROUPS_SIZE)) {
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 seen = column_seen(column, group);
+    further[group] = ratio_of(further[group], scattering_depth(column, group) * seen);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      once[c * GROUPS_SIZE + group] =
+          ratio_of(once[c * GROUPS_SIZE + group], column[c] * seen);
+    }
+  }
+}
+
+// Radiance scattered towards the camera, from ratios; `scattering_phase` is that of parallel light, and 1
+// where a near sun's is in the ratios already.
+Vec4 radiance_of(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
+                 ARRAY(Vec4, further, GROUPS_SIZE),
+                 ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), int group) {
+  Vec4 radiance = scattering_depth(column, group) * further[group];
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    Vec4 lit = once[c * GROUPS_SIZE + group] * column[c];
+    if (!NEAR_SUN) lit = lit * scattering_phase[c * GROUPS_SIZE + group];
+    radiance = radiance + lit;
+  }
+  return radiance * column_seen(column, group);
+}
+
+// Radiance of the ground at the end of a ray under one point of the sun, before the air in front of it: lit by
+// the sun, and by the sky whether the sun is up or not.
+void light_ground(Path path, Vec3 offset, bool all_orders,
+                  OUT_ARRAY(Vec4, radiance, GROUPS_SIZE)) {
+  UNROLL for (int group = 0; group < GROUPS; ++group) radiance[group] = Vec4(0.0);
+  if (!path.meets_ground) return;
+  Vec4 light[GROUPS_SIZE];
+  Vec3 position = path.start + path.direction * path.length_km;
+  SunRay sun = sun_ray(position, offset);
+  Real mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
+  transmittance_to_sun(0.0, max(mu_sun, 0.0), light);
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 irradiance = light[group] * max(mu_sun, 0.0);
+    if (all_orders) irradiance = irradiance + diffuse_irradiance(mu_sun, group);
+    radiance[group] = lambertian(group) * irradiance * sun.irradiance;
+  }
+}
+
+// Exact columns along the rays from an altitude, by elevation: VIEW_NODES nodes from the horizon to the
+// zenith, as many from the horizon to the nadir. So many that interpolation is exact to some 1e-5.
+CONSTANT int VIEW_NODES = 2048;
+
+void view_columns_of(SunlitRay ray, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
+  NodePosition position = node_position(
+      elevation_coordinate(ray.altitude_km, ray.mu, ray.meets_ground), VIEW_NODES);
+  int node = position.node + (ray.meets_ground ? VIEW_NODES : 0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    column[c] = ray.length_km > 0.0 ? mix(view_columns[node * MEDIA + c],
+                                          view_columns[(node + 1) * MEDIA + c], position.fraction)
+                                    : 0.0;
+  }
+}
