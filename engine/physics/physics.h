@@ -59,7 +59,7 @@ struct Physics {
   static constexpr int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS_SIZE;
   int EXPONENTIALS = 0, TENTS = 0, QUADRATICS = 0, UNIFORMS = 0, TABLES = 0;
   int MEDIA = 0, GROUPS = 1, PROJECTION = PROJECTION_PERSPECTIVE;
-  bool NEAR_SUN = false, MANY_SUNS = false;
+  bool NEAR_SUN = false, MANY_SUNS = false, PHASE_TABLES = true;
 
   // Buffers, in the order of their bindings.
   SceneData scene{};

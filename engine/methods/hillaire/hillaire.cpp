@@ -63,7 +63,7 @@ class Hillaire final : public Method {
                                 tables.sky->values, tile.values});
     PixelPush push{0, 0, tile.first_ray, tile.rays, several_orders(scene.problem())};
     fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,
-               2 * evaluations_per_step(scene), push);
+               6 * evaluations_per_node(scene), push);
   }
 
   void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
@@ -82,7 +82,7 @@ class Hillaire final : public Method {
                    scale_height_km(scene.problem())};
     for (push.sun = 0; push.sun < scene.disc_points(); ++push.sun) {
       fill_table(tracer, {march_, specialization, bindings}, tile.rays,
-                 sizes.view_samples * evaluations_per_step(scene), push);
+                 2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
     }
   }
 
@@ -131,7 +131,7 @@ const MethodDescription& hillaire_description() {
           size_option("multiple_directions", "Multiple scattering: directions",
                       "Directions over the sphere about each of its points.", 8, 1024, 64),
           size_option("multiple_samples", "Multiple scattering: samples",
-                      "Samples along each of these directions.", 4, 128, 20),
+                      "Samples along each of these directions.", 4, 64, 20),
           size_option("sky_azimuths", "Sky view: azimuths",
                       "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
                       192),
@@ -139,7 +139,7 @@ const MethodDescription& hillaire_description() {
                       "Elevations of the sky view, half above and half below the horizon.", 4,
                       512, 108),
           size_option("view_samples", "View samples",
-                      "Samples along each ray of the sky view, or of each pixel.", 4, 128, 32),
+                      "Samples along each ray of the sky view, or of each pixel.", 4, 64, 32),
           size_option(
               "march_pixels", "March each pixel",
               "1 marches every pixel instead of reading the sky view, as is always done "

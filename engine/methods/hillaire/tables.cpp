@@ -15,7 +15,8 @@ namespace cyanometer::hillaire {
 namespace {
 
 constexpr std::size_t vec4_bytes = 16;
-constexpr int view_nodes = 2 * 2048;  // shaders/methods/hillaire/view.glsl
+constexpr std::size_t phase_tables_constant = 31;  // shaders/device.glsl
+constexpr int view_nodes = 2 * 2048;               // shaders/methods/hillaire/view.glsl
 
 /// The sky's irradiance needs more directions than isotropic light: phase functions have peaks.
 constexpr int irradiance_directions = 8;
@@ -42,6 +43,12 @@ int terms(const Problem& problem) {
   return orders < 0 ? -1 : std::max(orders - 1, 0);
 }
 
+bool has_phase_tables(const Problem& problem) {
+  return std::any_of(problem.media.begin(), problem.media.end(), [](const Medium& medium) {
+    return std::holds_alternative<TabulatedPhase>(medium.phase);
+  });
+}
+
 template <class... Values>
 std::string key(const char* name, const UploadedScene& scene, Values... values) {
   std::string key = name;
@@ -62,8 +69,9 @@ double start_altitude_km(const Problem& problem) {
 /// Entries that sum over directions: as many directions a dispatch as loops and pacer allow.
 void fill_over_directions(Tracer& tracer, const UploadedScene& scene, const Filling& filling,
                           int entries, SpherePush push) {
-  std::int64_t rounds = push.samples * (scene.density_iterations() + 2) + scene.media() * 16;
-  std::int64_t direction = push.samples * evaluations_per_step(scene);
+  std::int64_t nodes = most_nodes(push.samples);
+  std::int64_t rounds = nodes * (scene.density_iterations() + 2) + scene.media() * 16;
+  std::int64_t direction = nodes * evaluations_per_node(scene);
   std::int64_t some = std::min<std::int64_t>(entries, 1024) * direction;
   std::int64_t fit = std::clamp<std::int64_t>(tracer.pacer.evaluations() / some, 1,
                                               most_loop_iterations / rounds);
@@ -201,7 +209,7 @@ std::shared_ptr<const SkyView> TableMaker::make_sky(Tracer& tracer, const Upload
   SkyPush push{0, 0, sizes.view_samples, several_orders(scene.problem()),
                scale_height_km(scene.problem())};
   fill_table(tracer, {sky_, specialization, bindings}, sizes.azimuths * sizes.elevations,
-             sizes.view_samples * evaluations_per_step(scene), push);
+             2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
   return sky;
 }
 
@@ -211,6 +219,8 @@ vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes)
        {sizes.multiple_suns, sizes.multiple_altitudes, sizes.azimuths, sizes.elevations}) {
     all.push_back(static_cast<std::uint32_t>(size));
   }
+  all.resize(phase_tables_constant);
+  all.push_back(has_phase_tables(scene.problem()));
   return all;
 }
 
@@ -218,7 +228,9 @@ bool several_orders(const Problem& problem) {
   return problem.scattering_orders < 0 || problem.scattering_orders > 1;
 }
 
-std::int64_t evaluations_per_step(const UploadedScene& scene) {
+std::int64_t most_nodes(int samples) { return samples + samples / 2 + 12; }
+
+std::int64_t evaluations_per_node(const UploadedScene& scene) {
   return 8 + scene.media() * (1 + scene.groups()) + 8 * scene.groups();
 }
 

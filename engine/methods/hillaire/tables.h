@@ -75,8 +75,11 @@ vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes)
 /// Whether light may be scattered or reflected more than once.
 bool several_orders(const Problem& problem);
 
-/// Evaluations of the density that one step of a march is worth.
-std::int64_t evaluations_per_step(const UploadedScene& scene);
+/// Nodes of a march of so many samples, at the most: a ray cut by the planet's shadow has more.
+std::int64_t most_nodes(int samples);
+
+/// Evaluations of the density that one node of a march is worth.
+std::int64_t evaluations_per_node(const UploadedScene& scene);
 
 /// The scale height that steps are fitted to: of the constituent that falls off fastest.
 float scale_height_km(const Problem& problem);

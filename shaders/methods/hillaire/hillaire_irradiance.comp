@@ -33,36 +33,38 @@ Vec4 interpolated_part(NodePosition sun, NodePosition altitude, int part, int gr
 
 void add_sky(SunlitRay ray, ScatteringAngle angle, INOUT_ARRAY(Vec4, radiance, GROUPS),
              INOUT_ARRAY(Vec4, coupled, GROUPS)) {
-  Real density[MEDIA_SIZE];
-  Vec4 transmittance[GROUPS];
-  Vec4 seen_km[GROUPS];
+  Real column[MEDIA_SIZE];
+  Vec4 density[MEDIA_SIZE];
+  Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   scattering_towards(angle, scattering_phase);
-  UNROLL for (int g = 0; g < GROUPS; ++g) transmittance[g] = Vec4(1.0);
-  Steps steps = steps_along(ray, shadowed_part(ray), push.samples, push.scale_height_km);
-  int count = number_of(steps);
-  for (int i = 0; i < count; ++i) {
-    Step at = step_of(steps, i);
-    Real h = altitude_after(ray.altitude_km, ray.mu, at.middle_km);
-    Real mu_sun = sun_cosine_after(ray, h, at.middle_km);
-    NodePosition sun = node_position(sun_coordinate(mu_sun), MULTIPLE_SUNS);
-    NodePosition altitude = node_position(altitude_coordinate(h), MULTIPLE_ALTITUDES);
-    densities(h, density);
-    pass_step(density, at.width_km, transmittance, seen_km);
-    transmittance_to_sun(h, mu_sun, light);
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      Vec4 once = Vec4(0.0);
-      Vec4 scattered = Vec4(0.0);
-      UNROLL for (int c = 0; c < MEDIA; ++c) {
-        once = once + scattering_phase[c * GROUPS_SIZE + g] * density[c];
-        scattered = scattered + scattering(c, g) * density[c];
+  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
+  Panels panels = panels_along(ray, shadowed_part(ray), push.samples, push.scale_height_km);
+  int count = number_of(panels);
+  for (int p = 0; p < count; ++p) {
+    Panel panel = panel_of(panels, p);
+    pass_panel(ray, panel, column, density, column_to);
+    for (int i = 0; i < 4; ++i) {
+      Node node = node_of(ray, panel, i);
+      NodePosition sun = node_position(sun_coordinate(node.mu_sun), MULTIPLE_SUNS);
+      NodePosition altitude =
+          node_position(altitude_coordinate(node.altitude_km), MULTIPLE_ALTITUDES);
+      transmittance_to_sun(node.altitude_km, node.mu_sun, light);
+      UNROLL for (int g = 0; g < GROUPS; ++g) {
+        Vec4 seen = seen_width(node, column_to, i, g);
+        Vec4 once = Vec4(0.0);
+        Vec4 scattered = Vec4(0.0);
+        UNROLL for (int c = 0; c < MEDIA; ++c) {
+          once = once + scattering_phase[c * GROUPS_SIZE + g] * density[c][i];
+          scattered = scattered + scattering(c, g) * density[c][i];
+        }
+        if (panel.lit) radiance[g] = radiance[g] + once * light[g] * seen;
+        if (push.terms == 0) continue;
+        scattered = scattered * seen;
+        radiance[g] = radiance[g] + scattered * interpolated_part(sun, altitude, 0, g);
+        coupled[g] = coupled[g] + scattered * interpolated_part(sun, altitude, 2, g);
       }
-      if (at.lit) radiance[g] = radiance[g] + once * light[g] * seen_km[g];
-      if (push.terms == 0) continue;
-      scattered = scattered * seen_km[g];
-      radiance[g] = radiance[g] + scattered * interpolated_part(sun, altitude, 0, g);
-      coupled[g] = coupled[g] + scattered * interpolated_part(sun, altitude, 2, g);
     }
   }
 }

@@ -15,34 +15,37 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
                       INOUT_ARRAY(Vec4, radiance, GROUPS_SIZE),
                       INOUT_ARRAY(Vec4, lost, GROUPS_SIZE),
                       INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
-  Real density[MEDIA_SIZE];
-  Vec4 transmittance[GROUPS_SIZE];
-  Vec4 seen_km[GROUPS_SIZE];
+  Real column[MEDIA_SIZE];
+  Vec4 density[MEDIA_SIZE];
+  Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS_SIZE];
-  UNROLL for (int group = 0; group < GROUPS; ++group) transmittance[group] = Vec4(1.0);
-  Steps steps = steps_along(ray, shadowed_part(ray), samples, scale_height_km);
-  int count = number_of(steps);
-  for (int i = 0; i < count; ++i) {
-    Step at = step_of(steps, i);
-    Real h = altitude_after(ray.altitude_km, ray.mu, at.middle_km);
-    densities(h, density);
-    pass_step(density, at.width_km, transmittance, seen_km);
-    transmittance_to_sun(h, sun_cosine_after(ray, h, at.middle_km), light);
-    UNROLL for (int group = 0; group < GROUPS; ++group) {
-      Vec4 scattered = Vec4(0.0);
-      Vec4 absorbed = Vec4(0.0);
-      UNROLL for (int c = 0; c < MEDIA; ++c) {
-        scattered = scattered + scattering(c, group) * density[c];
-        absorbed = absorbed + (extinction(c, group) - scattering(c, group)) * density[c];
-      }
-      lost[group] = lost[group] + absorbed * seen_km[group];
-      if (at.lit) {
-        radiance[group] =
-            radiance[group] + scattered * seen_km[group] * light[group] / (4.0 * PI);
+  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
+  Panels panels = panels_along(ray, shadowed_part(ray), samples, scale_height_km);
+  int count = number_of(panels);
+  for (int p = 0; p < count; ++p) {
+    Panel panel = panel_of(panels, p);
+    pass_panel(ray, panel, column, density, column_to);
+    for (int i = 0; i < 4; ++i) {
+      Node node = node_of(ray, panel, i);
+      transmittance_to_sun(node.altitude_km, node.mu_sun, light);
+      UNROLL for (int group = 0; group < GROUPS; ++group) {
+        Vec4 seen = seen_width(node, column_to, i, group);
+        Vec4 scattered = Vec4(0.0);
+        Vec4 absorbed = Vec4(0.0);
+        UNROLL for (int c = 0; c < MEDIA; ++c) {
+          scattered = scattered + scattering(c, group) * density[c][i];
+          absorbed = absorbed + (extinction(c, group) - scattering(c, group)) * density[c][i];
+        }
+        lost[group] = lost[group] + absorbed * seen;
+        if (panel.lit) {
+          radiance[group] = radiance[group] + scattered * seen * light[group] / (4.0 * PI);
+        }
       }
     }
   }
+  Vec4 transmittance[GROUPS_SIZE];
   UNROLL for (int group = 0; group < GROUPS; ++group) {
+    transmittance[group] = transmittance_of(column, group);
     lost[group] = lost[group] + transmittance[group];
   }
   if (!ray.meets_ground) return;

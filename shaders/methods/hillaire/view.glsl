@@ -32,14 +32,12 @@ void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_h
                 bool all_orders, OUT_ARRAY(Real, column, MEDIA_SIZE),
                 OUT_ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
                 OUT_ARRAY(Vec4, further, GROUPS_SIZE)) {
-  Real density[MEDIA_SIZE];
-  Vec4 transmittance[GROUPS_SIZE];
-  Vec4 seen_km[GROUPS_SIZE];
+  Vec4 density[MEDIA_SIZE];
+  Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS_SIZE];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
   UNROLL for (int group = 0; group < GROUPS; ++group) {
-    transmittance[group] = Vec4(1.0);
     further[group] = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) once[c * GROUPS_SIZE + group] = Vec4(0.0);
   }
@@ -47,47 +45,52 @@ void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_h
   shadow.from_km = 0.0;
   shadow.to_km = 0.0;
   if (!NEAR_SUN) shadow = shadowed_part(ray);
-  Steps steps = steps_along(ray, shadow, samples, scale_height_km);
-  int count = number_of(steps);
-  for (int i = 0; i < count; ++i) {
-    Step at = step_of(steps, i);
-    Real h = altitude_after(ray.altitude_km, ray.mu, at.middle_km);
-    Real mu_sun = sun_cosine_after(ray, h, at.middle_km);
-    Real irradiance = 1.0;
-    bool lit = at.lit;
-    densities(h, density);
-    pass_step(density, at.width_km, transmittance, seen_km);
-    if (NEAR_SUN) {
-      Vec3 position = path.start + path.direction * at.middle_km;
-      SunRay sun = sun_ray(position, offset);
-      mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
-      irradiance = sun.irradiance;
-      lit = !meets_ground(h, mu_sun);
-      scattering_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
-    }
-    UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += density[c] * at.width_km;
-    if (lit) {
-      transmittance_to_sun(h, mu_sun, light);
+  Panels panels = panels_along(ray, shadow, samples, scale_height_km);
+  int count = number_of(panels);
+  for (int p = 0; p < count; ++p) {
+    Panel panel = panel_of(panels, p);
+    pass_panel(ray, panel, column, density, column_to);
+    for (int i = 0; i < 4; ++i) {
+      Node node = node_of(ray, panel, i);
+      Real irradiance = 1.0;
+      bool lit = panel.lit;
+      if (NEAR_SUN) {
+        Vec3 position = path.start + path.direction * node.distance_km;
+        SunRay sun = sun_ray(position, offset);
+        node.mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
+        irradiance = sun.irradiance;
+        lit = !meets_ground(node.altitude_km, node.mu_sun);
+        scattering_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
+      }
+      if (lit) transmittance_to_sun(node.altitude_km, node.mu_sun, light);
+      MultiplePosition place;
+      if (all_orders) place = multiple_position(node.altitude_km, node.mu_sun);
       UNROLL for (int group = 0; group < GROUPS; ++group) {
-        Vec4 arrived = light[group] * seen_km[group] * irradiance;
+        Vec4 seen = seen_width(node, column_to, i, group) * irradiance;
+        Vec4 scattered = Vec4(0.0);
         UNROLL for (int c = 0; c < MEDIA; ++c) {
-          Vec4 scattered = arrived * density[c];
-          if (NEAR_SUN) scattered = scattered * scattering_phase[c * GROUPS_SIZE + group];
-          once[c * GROUPS_SIZE + group] = once[c * GROUPS_SIZE + group] + scattered;
+          scattered = scattered + scattering(c, group) * density[c][i];
+          if (!lit) continue;
+          Vec4 arrived = seen * light[group] * density[c][i];
+          if (NEAR_SUN) arrived = arrived * scattering_phase[c * GROUPS_SIZE + group];
+          once[c * GROUPS_SIZE + group] = once[c * GROUPS_SIZE + group] + arrived;
         }
+        if (!all_orders) continue;
+        further[group] = further[group] + scattered * seen * multiple_scattering(place, group);
       }
-    }
-    if (!all_orders) continue;
-    MultiplePosition place = multiple_position(h, mu_sun);
-    UNROLL for (int group = 0; group < GROUPS; ++group) {
-      Vec4 scattered = Vec4(0.0);
-      UNROLL for (int c = 0; c < MEDIA; ++c) {
-        scattered = scattered + scattering(c, group) * density[c];
-      }
-      further[group] = further[group] + scattered * multiple_scattering(place, group) *
-                                            seen_km[group] * irradiance;
     }
   }
+}
+
+// Mean of exp(-x) for x from 0 to an optical depth.
+Real mean_transmittance(Real depth) {
+  return depth > 0.03 ? (1.0 - exp(-depth)) / depth
+                      : 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0));
+}
+
+Vec4 mean_transmittances(Vec4 depth) {
+  return Vec4(mean_transmittance(depth.x), mean_transmittance(depth.y),
+              mean_transmittance(depth.z), mean_transmittance(depth.w));
 }
 
 // The normalisation: for the columns of the march it makes the ratios, for the exact ones it gives back
