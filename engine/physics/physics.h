@@ -85,6 +85,7 @@ struct Physics {
   Vec4 ground_albedo(int group) const { return spectra[group]; }
   Vec4 limb_exponent(int group) const { return spectra[GROUPS + group]; }
   Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
+  Vec4 forward_gain(int, int) const { return Vec4(1); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
 
 // In the order in which they build up.

@@ -22,8 +22,8 @@ class Hillaire final : public Method {
  public:
   explicit Hillaire(vulkan::Device& device)
       : tables_(device),
-        pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 6, sizeof(PixelPush)),
-        march_(device, hillaire_march_spirv, UploadedScene::bindings + 5, sizeof(MarchPush)),
+        pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 7, sizeof(PixelPush)),
+        march_(device, hillaire_march_spirv, UploadedScene::bindings + 6, sizeof(MarchPush)),
         most_bytes_(device.limits().max_storage_range) {}
 
   const MethodDescription& description() const override { return hillaire_description(); }
@@ -58,9 +58,8 @@ class Hillaire final : public Method {
   void interpolate(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
                    const TablesOfView& tables, const Tile& tile) {
     vulkan::Specialization specialization = constants(scene, sizes);
-    auto bindings = scene.bind({tables.optical_depth->values(), tables.air->log_multiple,
-                                tables.air->log_irradiance, tables.columns->values,
-                                tables.sky->values, tile.values});
+    auto bindings =
+        bind(scene, *tables.air, {tables.columns->values, tables.sky->values, tile.values});
     PixelPush push{0, 0, tile.first_ray, tile.rays, several_orders(scene.problem())};
     fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,
                6 * evaluations_per_node(scene), push);
@@ -69,9 +68,7 @@ class Hillaire final : public Method {
   void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
              const TablesOfView& tables, const Tile& tile) {
     vulkan::Specialization specialization = constants(scene, sizes);
-    auto bindings =
-        scene.bind({tables.optical_depth->values(), tables.air->log_multiple,
-                    tables.air->log_irradiance, tables.columns->values, tile.values});
+    auto bindings = bind(scene, *tables.air, {tables.columns->values, tile.values});
     MarchPush push{0,
                    0,
                    tile.first_ray,
@@ -140,6 +137,16 @@ const MethodDescription& hillaire_description() {
                       512, 108),
           size_option("view_samples", "View samples",
                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 32),
+          {.name = "forward_share",
+           .title = "Forward share",
+           .description = "Of the light that its mean cosine says a constituent scatters "
+                          "forwards, the share that orders two and up take as not scattered; "
+                          "0 is Hillaire's own method.",
+           .unit = "",
+           .minimum = 0,
+           .maximum = 0.9,
+           .default_value = 0.5,
+           .integer = false},
           size_option(
               "march_pixels", "March each pixel",
               "1 marches every pixel instead of reading the sky view, as is always done "

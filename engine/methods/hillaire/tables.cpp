@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/methods/hillaire/forward_peak.h"
 #include "engine/methods/tables/fill.h"
 #include "engine/optics/profile.h"
 #include "spirv/hillaire_columns.spv.h"
@@ -93,11 +94,13 @@ Sizes Sizes::of(const MethodOptions& options) {
           option("multiple_samples"),
           option("sky_azimuths"),
           option("sky_elevations"),
-          option("view_samples")};
+          option("view_samples"),
+          options.at("forward_share")};
 }
 
-AirTables::AirTables(vulkan::Device& device, const Sizes& sizes, int groups)
-    : log_multiple(device, vec4_bytes * sizes.multiple_suns * sizes.multiple_altitudes * groups,
+AirTables::AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups)
+    : kept(device, vec4_bytes * std::max(media, 1) * groups, vulkan::Memory::device),
+      log_multiple(device, vec4_bytes * sizes.multiple_suns * sizes.multiple_altitudes * groups,
                    vulkan::Memory::device),
       log_irradiance(device, vec4_bytes * sizes.multiple_suns * groups,
                      vulkan::Memory::device) {}
@@ -120,25 +123,24 @@ std::size_t SkyView::bytes_of(const UploadedScene& scene, const Sizes& sizes) {
 
 TableMaker::TableMaker(vulkan::Device& device)
     : optical_depths_(device),
-      multiple_(device, hillaire_multiple_spirv, UploadedScene::bindings + 2,
+      multiple_(device, hillaire_multiple_spirv, UploadedScene::bindings + 3,
                 sizeof(SpherePush)),
-      irradiance_(device, hillaire_irradiance_spirv, UploadedScene::bindings + 3,
+      irradiance_(device, hillaire_irradiance_spirv, UploadedScene::bindings + 4,
                   sizeof(SpherePush)),
       sum_(device, hillaire_sum_spirv, UploadedScene::bindings + 4, sizeof(SumPush)),
-      columns_(device, hillaire_columns_spirv, UploadedScene::bindings + 4, sizeof(ColumnPush)),
-      sky_(device, hillaire_sky_spirv, UploadedScene::bindings + 5, sizeof(SkyPush)) {}
+      columns_(device, hillaire_columns_spirv, UploadedScene::bindings + 5, sizeof(ColumnPush)),
+      sky_(device, hillaire_sky_spirv, UploadedScene::bindings + 6, sizeof(SkyPush)) {}
 
 TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
                              bool with_sky) {
   const Problem& problem = scene.problem();
   TablesOfView tables;
-  tables.optical_depth = optical_depths_.get(tracer, scene, sizes.optical_depth);
   std::string air =
       key("hillaire air", scene, sizes.optical_depth.cosines, sizes.optical_depth.altitudes,
           sizes.multiple_suns, sizes.multiple_altitudes, sizes.directions,
-          sizes.multiple_samples, terms(problem));
-  tables.air = tracer.tables.get<AirTables>(
-      air, [&] { return make_air(tracer, scene, sizes, *tables.optical_depth); });
+          sizes.multiple_samples, sizes.forward_share, terms(problem));
+  tables.air =
+      tracer.tables.get<AirTables>(air, [&] { return make_air(tracer, scene, sizes); });
   std::string altitude = bytes_of_float(start_altitude_km(problem));
   tables.columns = tracer.tables.get<ViewColumns>(
       "view columns " + altitude + scene.air_key(),
@@ -155,22 +157,29 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
 
 std::shared_ptr<const AirTables> TableMaker::make_air(Tracer& tracer,
                                                       const UploadedScene& scene,
-                                                      const Sizes& sizes,
-                                                      const OpticalDepthTable& optical_depth) {
-  auto tables = std::make_shared<AirTables>(tracer.device, sizes, scene.groups());
+                                                      const Sizes& sizes) {
+  auto tables =
+      std::make_shared<AirTables>(tracer.device, sizes, scene.media(), scene.groups());
+  const Problem& problem = scene.problem();
+  Problem scaled =
+      without_forward_peak(problem, several_orders(problem) ? sizes.forward_share : 0);
+  std::vector<glm::vec4> kept = scattering_kept(problem, scaled);
+  if (!kept.empty()) tables->kept.write(0, std::as_bytes(std::span(kept)));
+  tables->optical_depth =
+      optical_depths_.get(tracer, UploadedScene(tracer.device, scaled), sizes.optical_depth);
   if (!several_orders(scene.problem())) return tables;  // nothing reads them
   vulkan::Buffer parts(tracer.device, 3 * tables->log_multiple.size(), vulkan::Memory::device);
   vulkan::Buffer suns(tracer.device, 2 * tables->log_irradiance.size(), vulkan::Memory::device);
   vulkan::Specialization specialization = constants(scene, sizes);
   int texels = sizes.multiple_suns * sizes.multiple_altitudes;
-  int series = terms(scene.problem());
-  float height_km = scale_height_km(scene.problem());
+  int series = terms(problem);
+  float height_km = scale_height_km(problem);
 
-  auto multiple = scene.bind({optical_depth.values(), parts});
+  auto multiple = scene.bind({tables->optical_depth->values(), tables->kept, parts});
   fill_over_directions(
       tracer, scene, {multiple_, specialization, multiple}, texels,
       {0, 0, 0, 0, sizes.directions, sizes.multiple_samples, series, height_km});
-  auto irradiance = scene.bind({optical_depth.values(), parts, suns});
+  auto irradiance = scene.bind({tables->optical_depth->values(), tables->kept, parts, suns});
   fill_over_directions(
       tracer, scene, {irradiance_, specialization, irradiance}, sizes.multiple_suns,
       {0, 0, 0, 0, irradiance_directions * sizes.directions, sizes.multiple_samples,
@@ -186,8 +195,7 @@ std::shared_ptr<const ViewColumns> TableMaker::make_columns(Tracer& tracer,
                                                             const TablesOfView& tables) {
   auto columns = std::make_shared<ViewColumns>(tracer.device, scene.media());
   vulkan::Specialization specialization = constants(scene, sizes);
-  auto bindings = scene.bind({tables.optical_depth->values(), tables.air->log_multiple,
-                              tables.air->log_irradiance, columns->values});
+  auto bindings = bind(scene, *tables.air, {columns->values});
   const Problem& problem = scene.problem();
   int media = scene.media(), at_once = std::min(columns_at_once(problem), media);
   for (int medium = 0; medium < media; medium += at_once) {
@@ -204,13 +212,20 @@ std::shared_ptr<const SkyView> TableMaker::make_sky(Tracer& tracer, const Upload
                                                     const TablesOfView& tables) {
   auto sky = std::make_shared<SkyView>(tracer.device, SkyView::bytes_of(scene, sizes));
   vulkan::Specialization specialization = constants(scene, sizes);
-  auto bindings = scene.bind({tables.optical_depth->values(), tables.air->log_multiple,
-                              tables.air->log_irradiance, tables.columns->values, sky->values});
+  auto bindings = bind(scene, *tables.air, {tables.columns->values, sky->values});
   SkyPush push{0, 0, sizes.view_samples, several_orders(scene.problem()),
                scale_height_km(scene.problem())};
   fill_table(tracer, {sky_, specialization, bindings}, sizes.azimuths * sizes.elevations,
              2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
   return sky;
+}
+
+std::vector<vulkan::Binding> bind(const UploadedScene& scene, const AirTables& air,
+                                  std::initializer_list<vulkan::Binding> own) {
+  std::vector<vulkan::Binding> all =
+      scene.bind({air.optical_depth->values(), air.kept, air.log_multiple, air.log_irradiance});
+  for (const vulkan::Binding& binding : own) all.push_back(binding);
+  return all;
 }
 
 vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes) {

@@ -12,16 +12,20 @@ struct Sizes {
   OpticalDepthSize optical_depth;
   int multiple_suns, multiple_altitudes, directions, multiple_samples;
   int azimuths, elevations, view_samples;
+  double forward_share;
 
   static Sizes of(const MethodOptions& options);
 };
 
-/// Of the air alone.
+/// Of the air alone, all without the forward peak.
 struct AirTables final : Tables {
-  AirTables(vulkan::Device& device, const Sizes& sizes, int groups);
-  std::size_t bytes() const override { return log_multiple.size() + log_irradiance.size(); }
+  AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups);
+  std::size_t bytes() const override {
+    return kept.size() + log_multiple.size() + log_irradiance.size();
+  }
 
-  vulkan::Buffer log_multiple, log_irradiance;
+  std::shared_ptr<const OpticalDepthTable> optical_depth;  ///< in the cache by itself
+  vulkan::Buffer kept, log_multiple, log_irradiance;
 };
 
 /// Columns along the rays from an altitude.
@@ -43,11 +47,14 @@ struct SkyView final : Tables {
 
 /// All that pixels are made from.
 struct TablesOfView {
-  std::shared_ptr<const OpticalDepthTable> optical_depth;
   std::shared_ptr<const AirTables> air;
   std::shared_ptr<const ViewColumns> columns;
   std::shared_ptr<const SkyView> sky;  ///< null where every pixel is marched
 };
+
+/// The scene's bindings and those of the tables that most kernels begin with, then its own.
+std::vector<vulkan::Binding> bind(const UploadedScene& scene, const AirTables& air,
+                                  std::initializer_list<vulkan::Binding> own);
 
 class TableMaker {
  public:
@@ -57,8 +64,7 @@ class TableMaker {
 
  private:
   std::shared_ptr<const AirTables> make_air(Tracer& tracer, const UploadedScene& scene,
-                                            const Sizes& sizes,
-                                            const OpticalDepthTable& optical_depth);
+                                            const Sizes& sizes);
   std::shared_ptr<const ViewColumns> make_columns(Tracer& tracer, const UploadedScene& scene,
                                                   const Sizes& sizes,
                                                   const TablesOfView& tables);

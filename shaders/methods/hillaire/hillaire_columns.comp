@@ -5,7 +5,7 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 11) restrict buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = 12) restrict buffer ColumnBuffer { Real view_columns[]; };
 
 #include "methods/hillaire/view.glsl"
 
@@ -22,6 +22,7 @@ void main() {
   if (node >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   bool ground = node >= VIEW_NODES;
   Real x = Real(node % VIEW_NODES) / Real(VIEW_NODES - 1);
   Real mu = elevation_cosine_at(push.altitude_km, x, ground);

@@ -6,10 +6,10 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/second_order.glsl"
 
-layout(std430, binding = 9) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
+layout(std430, binding = 10) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
 // Of a sun twice GROUPS: sums over directions of the sky's radiance, and of what a unit of the ground's
 // diffuse radiance adds to it; in the end the ground's diffuse radiance, and the logarithm of the irradiance.
-layout(std430, binding = 10) restrict buffer SunsBuffer { Vec4 suns[]; };
+layout(std430, binding = 11) restrict buffer SunsBuffer { Vec4 suns[]; };
 
 layout(push_constant) uniform Push {
   int first;  // sun
@@ -74,6 +74,7 @@ void main() {
   if (node >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   Real mu_sun = sun_cosine_at(Real(node) / Real(MULTIPLE_SUNS - 1));
   Vec3 to_sun = Vec3(sqrt(1.0 - mu_sun * mu_sun), 0.0, mu_sun);
   Vec4 radiance[GROUPS];

@@ -6,8 +6,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 11) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 12) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = 13) restrict buffer TileBuffer { Vec4 tile[]; };
 
 #include "methods/hillaire/view.glsl"
 
@@ -28,6 +28,7 @@ void main() {
   if (i >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_from_camera(pixel.direction);
   if (!pixel.inside) leave_out(path);
@@ -57,6 +58,6 @@ void main() {
     }
     tile[(INSCATTER * GROUPS + g) * n + i] = inscatter;
     tile[(GROUND * GROUPS + g) * n + i] = reflected;
-    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance;
+    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = true_transmittance(column, g);
   }
 }

@@ -8,7 +8,7 @@
 
 // Of a texel three times GROUPS: sums over directions of what add_second_order gives; in the end order two
 // with its series, and what a unit of the ground's diffuse radiance adds.
-layout(std430, binding = 9) restrict buffer PartsBuffer { Vec4 parts[]; };
+layout(std430, binding = 10) restrict buffer PartsBuffer { Vec4 parts[]; };
 
 layout(push_constant) uniform Push {
   int first;  // texel
@@ -26,6 +26,7 @@ void main() {
   if (texel >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   Real h = altitude_at(Real(texel / MULTIPLE_SUNS) / Real(MULTIPLE_ALTITUDES - 1));
   Real mu_sun = sun_cosine_at(Real(texel % MULTIPLE_SUNS) / Real(MULTIPLE_SUNS - 1));
   Vec4 radiance[GROUPS];

@@ -5,9 +5,9 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 11) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 12) restrict readonly buffer SkyBuffer { Vec4 sky_view[]; };
-layout(std430, binding = 13) restrict writeonly buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = 13) restrict readonly buffer SkyBuffer { Vec4 sky_view[]; };
+layout(std430, binding = 14) restrict writeonly buffer TileBuffer { Vec4 tile[]; };
 
 #include "methods/hillaire/view.glsl"
 #include "methods/hillaire/sky_view.glsl"
@@ -26,6 +26,7 @@ void main() {
   if (i >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_from_camera(pixel.direction);
   if (!pixel.inside) leave_out(path);
@@ -55,6 +56,6 @@ void main() {
     tile[(INSCATTER * GROUPS + g) * n + i] =
         radiance_of(column, once, further, scattering_phase, g);
     tile[(GROUND * GROUPS + g) * n + i] = ground[g] * transmittance;
-    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance;
+    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = true_transmittance(column, g);
   }
 }

@@ -5,8 +5,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 11) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 12) restrict buffer SkyBuffer { Vec4 sky_view[]; };
+layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = 13) restrict buffer SkyBuffer { Vec4 sky_view[]; };
 
 #include "methods/hillaire/view.glsl"
 #include "methods/hillaire/sky_view.glsl"
@@ -24,6 +24,7 @@ void main() {
   if (texel >= push.end) return;
   load_scene();
   load_media();
+  take_out_forward_peak();
   SunlitRay ray = sky_ray(texel % SKY_AZIMUTHS, texel / SKY_AZIMUTHS, scene.camera_altitude_km,
                           scene.sun_direction.z);
   Path idle;

@@ -122,14 +122,14 @@ void make_ratios(ARRAY(Real, column, MEDIA_SIZE), INOUT_ARRAY(Vec4, once, MEDIA_
   }
 }
 
-// Radiance scattered towards the camera, from ratios; `scattering_phase` is that of parallel light, and 1
+// Radiance scattered towards the camera, from ratios; `scattering_phase` is that of parallel light, and idle
 // where a near sun's is in the ratios already.
 Vec4 radiance_of(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
                  ARRAY(Vec4, further, GROUPS_SIZE),
                  ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), int group) {
   Vec4 radiance = scattering_depth(column, group) * further[group];
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    Vec4 lit = once[c * GROUPS_SIZE + group] * column[c];
+    Vec4 lit = once[c * GROUPS_SIZE + group] * forward_gain(c, group) * column[c];
     if (!NEAR_SUN) lit = lit * scattering_phase[c * GROUPS_SIZE + group];
     radiance = radiance + lit;
   }
@@ -152,6 +152,16 @@ void light_ground(Path path, Vec3 offset, bool all_orders,
     if (all_orders) irradiance = irradiance + diffuse_irradiance(mu_sun, group);
     radiance[group] = lambertian(group) * irradiance * sun.irradiance;
   }
+}
+
+// What the air really leaves of the light, forward peak and all.
+Vec4 true_transmittance(ARRAY(Real, column, MEDIA_SIZE), int group) {
+  Vec4 depth = Vec4(0.0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    Vec4 peak = scattering(c, group) * (forward_gain(c, group) - 1.0);
+    depth = depth + (extinction(c, group) + peak) * column[c];
+  }
+  return exp(-depth);
 }
 
 // Exact columns along the rays from an altitude, by elevation: VIEW_NODES nodes from the horizon to the
