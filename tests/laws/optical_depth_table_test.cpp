@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/document.h"
-#include "tests/oracle/adaptive.h"
+#include "tests/laws/optical_depths.h"
 
 namespace cyanometer {
 namespace {
@@ -74,28 +74,9 @@ TEST(OpticalDepthTable, NothingLiesAboveTheTop) {
   EXPECT_NEAR(p.distance_to_top(ray.altitude_km, ray.mu), 0, 1e-9);
 }
 
-/// What the device does, in double.
-P filled(const Problem& problem, OpticalDepthSize size) {
-  P p = pack<double>(problem);
-  p.OPTICAL_DEPTH_COSINES = size.cosines;
-  p.OPTICAL_DEPTH_ALTITUDES = size.altitudes;
-  for (int row = 0; row < size.altitudes; ++row) {
-    for (int column = 0; column < size.cosines; ++column) {
-      auto ray =
-          p.optical_depth_ray({column / (size.cosines - 1.0), row / (size.altitudes - 1.0)});
-      double columns[P::MEDIA_SIZE];
-      p.columns_to_top(ray.altitude_km, ray.mu, columns);
-      glm::dvec4 depth(0);
-      for (int c = 0; c < p.MEDIA; ++c) depth += p.extinction(c, 0) * columns[c];
-      p.optical_depths.push_back(depth);
-    }
-  }
-  return p;
-}
-
 /// The largest error of the transmittance that interpolation makes.
 double worst_transmittance(const Problem& problem, OpticalDepthSize size) {
-  P p = filled(problem, size);
+  P p = with_optical_depths(pack<double>(problem), size);
   double worst = 0;
   for (double h : {0.0, 0.002, 0.07, 0.4, 1.3, 3.0, 9.0, 27.0, 60.0, 99.0}) {
     for (double mu : cosines_above_the_horizon(p, h)) {
@@ -163,7 +144,7 @@ TEST(OpticalDepthTable, OnTheDeviceHoldsColumnsTimesExtinction) {
     Problem problem = problem_of(document);
     OpticalDepthSize size{32, 8};
     std::vector<glm::vec4> found = gpu.table(problem, size);
-    P exact = filled(problem, size);
+    P exact = with_optical_depths(pack<double>(problem), size);
     ASSERT_EQ(found.size(), exact.optical_depths.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       for (int w = 0; w < 3; ++w) {
