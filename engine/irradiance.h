@@ -18,10 +18,4 @@ struct HemisphereRule {
 /// where the radiance jumps or bends (horizon, limbs) and gathered about the sun.
 HemisphereRule hemisphere_rule(const Problem& problem, bool upper);
 
-/// Nodes and weights of n-point Gauss-Legendre quadrature on [0, 1].
-struct GaussRule {
-  std::vector<double> nodes, weights;
-};
-GaussRule gauss_legendre(int n);
-
 }  // namespace cyanometer

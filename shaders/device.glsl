@@ -3,6 +3,8 @@
 // What the physics files stand on in a shader: types, constants of the pipeline, buffers.
 // engine/physics/physics.h is the same for C++.
 #define Real float
+#define Uint uint
+#define UVec4 uvec4
 #define Vec2 vec2
 #define Vec3 vec3
 #define Vec4 vec4
@@ -48,6 +50,8 @@ layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_va
 // for each group of wavelengths the point's weight.
 layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
 layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
+layout(std430, binding = 8) restrict readonly buffer QuadratureBuffer { Vec2 quadrature[]; };
+#define OWN 9  // a shader's own bindings: OWN, OWN + 1, ...
 
 // What is used in loops is read once into registers: on software devices a load from a buffer costs more
 // than an exponential. A shader's main() begins with load_scene(), and load_media() where it marches.

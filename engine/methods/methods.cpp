@@ -2,13 +2,19 @@
 #include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
+#include "engine/methods/raymarch/raymarch.h"
+#include "engine/methods/moments/moments.h"
+#include "engine/methods/path/path.h"
 
 namespace cyanometer {
 
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
+      raymarch_description(),
       hillaire_description(),
+      moments_description(),
+      path_description(),
   };
   return all;
 }
@@ -16,7 +22,10 @@ const std::vector<MethodDescription>& methods() {
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
+  all.push_back(make_raymarch(device));
   all.push_back(make_hillaire(device));
+  all.push_back(make_moments(device));
+  all.push_back(make_path(device));
   return all;
 }
 

@@ -14,7 +14,7 @@ std::vector<Bytes> arrays(const Physics<float>& p) {
   auto bytes = [](const auto& vector) { return Bytes(std::as_bytes(std::span(vector))); };
   return {vulkan::bytes_of(p.scene), bytes(p.media),        bytes(p.spectra),
           bytes(p.profile_nodes),    bytes(p.phase_angles), bytes(p.phase_values),
-          bytes(p.sun_points),       bytes(p.directions)};
+          bytes(p.sun_points),       bytes(p.directions),   bytes(p.quadrature)};
 }
 
 /// One buffer for all arrays: where each begins, and its size. Empty ones keep room for one
@@ -80,7 +80,9 @@ UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
       groups_(physics.GROUPS),
       media_(physics.MEDIA),
       disc_points_(physics.scene.disc_points),
-      density_iterations_(iterations(physics)) {
+      density_iterations_(iterations(physics)),
+      profile_nodes_(static_cast<int>(physics.profile_nodes.size())),
+      kinks_(physics.scene.kinks) {
   std::vector<Bytes> bytes = arrays(physics);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (!bytes[i].empty()) buffer_.write(parts_[i].first, bytes[i]);

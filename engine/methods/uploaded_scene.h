@@ -18,7 +18,7 @@ inline constexpr std::size_t wavelengths_at_once = 16;
 
 class UploadedScene {
  public:
-  static constexpr int bindings = 8;  ///< 0 to 7 of shaders/device.glsl
+  static constexpr int bindings = 9;  ///< 0 to 8 of shaders/device.glsl
 
   /// The rays are `directions` (unit; x east, y north, z up at the foot point), or the camera's
   /// where there are none.
@@ -35,6 +35,8 @@ class UploadedScene {
   int disc_points() const { return disc_points_; }
   /// Rounds of all loops that one evaluation of the densities may take, none unrolled.
   int density_iterations() const { return density_iterations_; }
+  int profile_nodes() const { return profile_nodes_; }  ///< of all tabulated profiles
+  int kinks() const { return kinks_; }                  ///< where a ray is cut
 
   /// The scene's bindings followed by a kernel's own.
   std::vector<vulkan::Binding> bind(std::initializer_list<vulkan::Binding> own) const;
@@ -47,7 +49,7 @@ class UploadedScene {
   std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
   vulkan::Buffer buffer_;
   vulkan::Specialization constants_;
-  int groups_, media_, disc_points_, density_iterations_;
+  int groups_, media_, disc_points_, density_iterations_, profile_nodes_, kinks_;
 };
 
 }  // namespace cyanometer

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/gauss_legendre.h"
+#include "engine/optics/profile.h"
+#include "engine/physics/kinks.h"
+
 namespace cyanometer {
 namespace {
 
@@ -97,12 +101,7 @@ void set_profile(Physics<Real>& p, typename Physics<Real>::MediumData& data,
 
 template <class Real>
 void append_media(Physics<Real>& p, const Problem& problem) {
-  std::vector<const Medium*> ordered;
-  for (const Medium& medium : problem.media) ordered.push_back(&medium);
-  std::stable_sort(ordered.begin(), ordered.end(), [](const Medium* a, const Medium* b) {
-    return a->profile.index() < b->profile.index();
-  });
-  for (const Medium* medium : ordered) {
+  for (const Medium* medium : packed_media(problem)) {
     typename Physics<Real>::MediumData data{};
     set_profile(p, data, medium->profile, problem.thickness_km);
     bool scatters =
@@ -122,6 +121,31 @@ void append_media(Physics<Real>& p, const Problem& problem) {
     p.media.push_back(data);
   }
   p.MEDIA = static_cast<int>(p.media.size());
+}
+
+/// The scale of raymarch's nodes: that of each constituent which scatters, weighted by what it
+/// scatters.
+double view_scale_km(const Problem& problem) {
+  double weights = 0, sum = 0;
+  for (const Medium& medium : problem.media) {
+    double column = column_km(medium.profile, problem.thickness_km);
+    double depth = column * *std::ranges::max_element(medium.scattering_per_km);
+    if (depth > 0) sum += depth * std::log(column);
+    weights += depth;
+  }
+  return weights > 0 ? std::exp(sum / weights) : problem.thickness_km;
+}
+
+template <class Real>
+void append_quadrature(Physics<Real>& p, const Problem& problem) {
+  for (int nodes = 1; nodes <= Physics<Real>::MOST_GAUSS_NODES; ++nodes) {
+    GaussRule rule = gauss_legendre(nodes);
+    for (int i = 0; i < nodes; ++i) p.quadrature.emplace_back(rule.nodes[i], rule.weights[i]);
+  }
+  std::vector<double> kinks = profile_kinks_km(problem);
+  for (double altitude : kinks) p.quadrature.emplace_back(altitude, 0);
+  p.scene.kinks = static_cast<int>(kinks.size());
+  p.scene.view_scale_km = static_cast<Real>(view_scale_km(problem));
 }
 
 template <class Real>
@@ -200,6 +224,15 @@ void set_sun(Physics<Real>& p, const Problem& problem) {
 
 }  // namespace
 
+std::vector<const Medium*> packed_media(const Problem& problem) {
+  std::vector<const Medium*> ordered;
+  for (const Medium& medium : problem.media) ordered.push_back(&medium);
+  std::stable_sort(ordered.begin(), ordered.end(), [](const Medium* a, const Medium* b) {
+    return a->profile.index() < b->profile.index();
+  });
+  return ordered;
+}
+
 template <class Real>
 Physics<Real> pack(const Problem& problem) {
   Physics<Real> p;
@@ -209,6 +242,7 @@ Physics<Real> pack(const Problem& problem) {
   append_groups(p.spectra, problem.ground_albedo);
   append_groups(p.spectra, problem.limb_darkening_exponent);
   append_media(p, problem);
+  append_quadrature(p, problem);
   set_camera(p, problem);
   set_sun(p, problem);
   return p;

@@ -11,6 +11,7 @@ namespace cyanometer::physics {
 using glm::abs;
 using glm::asinh;
 using glm::atan;
+using glm::ceil;
 using glm::clamp;
 using glm::cos;
 using glm::cosh;
@@ -28,6 +29,7 @@ using glm::pow;
 using glm::sin;
 using glm::sinh;
 using glm::sqrt;
+using glm::tan;
 
 #define CONSTANT static constexpr
 #define UNROLL
@@ -50,6 +52,8 @@ struct Physics {
   using Vec2 = glm::vec<2, Real>;
   using Vec3 = glm::vec<3, Real>;
   using Vec4 = glm::vec<4, Real>;
+  using Uint = glm::uint;
+  using UVec4 = glm::uvec4;
 
 #include "shaders/physics/layout.glsl"
 
@@ -70,6 +74,11 @@ struct Physics {
   std::vector<Vec4> phase_values;
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
+  std::vector<Vec2> quadrature;
+
+  // Of the method `path` alone (engine/methods/path/guide.h).
+  int SEGMENTS = 8;
+  std::vector<Real> path_guide;
 
   // Tables, each with its constants.
   int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
@@ -93,14 +102,18 @@ struct Physics {
 #include "shaders/physics/constants.glsl"
 #include "shaders/physics/sphere.glsl"
 #include "shaders/physics/profile.glsl"
-#include "shaders/physics/gauss.glsl"
+#include "shaders/physics/quadrature.glsl"
 #include "shaders/physics/columns.glsl"
 #include "shaders/physics/phase.glsl"
 #include "shaders/physics/sun.glsl"
 #include "shaders/physics/camera.glsl"
+#include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/tables/optical_depth.glsl"
 #include "shaders/methods/nishita.glsl"
+#include "shaders/methods/moments.glsl"
+#include "shaders/methods/raymarch.glsl"
+#include "shaders/methods/path.glsl"
 #include "shaders/methods/hillaire/coordinates.glsl"
 #include "shaders/methods/hillaire/march.glsl"
 #include "shaders/methods/hillaire/second_order.glsl"
@@ -118,7 +131,7 @@ struct Physics {
 #undef INOUT_ARRAY
 #undef INOUT
 
-static_assert(sizeof(Physics<float>::SceneData) == 128);
+static_assert(sizeof(Physics<float>::SceneData) == 144);
 static_assert(sizeof(Physics<float>::MediumData) == 32);
 
 }  // namespace cyanometer::physics

@@ -4,12 +4,12 @@
 
 // A tile's spectral quantities become up to four planes of the frame: the sun's disc is added behind
 // the air, and one row of the output matrix is applied for each plane.
-layout(std430, binding = 8) restrict readonly buffer TileBuffer { Vec4 tile[]; };
-layout(std430, binding = 9) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
-layout(std430, binding = 10) restrict buffer Plane0 { Real plane0[]; };
-layout(std430, binding = 11) restrict buffer Plane1 { Real plane1[]; };
-layout(std430, binding = 12) restrict buffer Plane2 { Real plane2[]; };
-layout(std430, binding = 13) restrict buffer Plane3 { Real plane3[]; };
+layout(std430, binding = OWN) restrict readonly buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN + 1) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
+layout(std430, binding = OWN + 2) restrict buffer Plane0 { Real plane0[]; };
+layout(std430, binding = OWN + 3) restrict buffer Plane1 { Real plane1[]; };
+layout(std430, binding = OWN + 4) restrict buffer Plane2 { Real plane2[]; };
+layout(std430, binding = OWN + 5) restrict buffer Plane3 { Real plane3[]; };
 
 layout(push_constant) uniform Push {
   Vec4 inscatter;      // weight of each quantity in the four planes

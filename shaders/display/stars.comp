@@ -4,15 +4,15 @@
 
 // Adds the stars of a tile to the planes of the frame, dimmed and reddened by the air in front of
 // them. One invocation a pixel that holds a star: stars that share a pixel were added up before.
-layout(std430, binding = 8) restrict readonly buffer TileBuffer { Vec4 tile[]; };
-layout(std430, binding = 9) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
-layout(std430, binding = 10) restrict buffer Plane0 { Real plane0[]; };
-layout(std430, binding = 11) restrict buffer Plane1 { Real plane1[]; };
-layout(std430, binding = 12) restrict buffer Plane2 { Real plane2[]; };
-layout(std430, binding = 13) restrict buffer Plane3 { Real plane3[]; };
-layout(std430, binding = 14) restrict readonly buffer PixelBuffer { int star_pixels[]; };
+layout(std430, binding = OWN) restrict readonly buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN + 1) restrict readonly buffer MatrixBuffer { Vec4 matrix[]; };
+layout(std430, binding = OWN + 2) restrict buffer Plane0 { Real plane0[]; };
+layout(std430, binding = OWN + 3) restrict buffer Plane1 { Real plane1[]; };
+layout(std430, binding = OWN + 4) restrict buffer Plane2 { Real plane2[]; };
+layout(std430, binding = OWN + 5) restrict buffer Plane3 { Real plane3[]; };
+layout(std430, binding = OWN + 6) restrict readonly buffer PixelBuffer { int star_pixels[]; };
 // Radiance over the pixel per unit irradiance of the sun, by group of wavelengths.
-layout(std430, binding = 15) restrict readonly buffer StarBuffer { Vec4 star_radiance[]; };
+layout(std430, binding = OWN + 7) restrict readonly buffer StarBuffer { Vec4 star_radiance[]; };
 
 layout(push_constant) uniform Push {
   int first_ray;

@@ -3,9 +3,9 @@
 #include "device.glsl"
 #include "methods/nishita.glsl"
 
-layout(std430, binding = 8) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
 // Columns to the camera and to the sun of every constituent, between two dispatches.
-layout(std430, binding = 9) restrict buffer ColumnBuffer { Real columns[]; };
+layout(std430, binding = OWN + 1) restrict buffer ColumnBuffer { Real columns[]; };
 
 layout(push_constant) uniform Push {
   int first_ray;      // of the tile, in the frame

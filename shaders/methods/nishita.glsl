@@ -20,22 +20,6 @@ void add_columns_to_sun(Real h, Real mu, int first, int end, int samples,
   }
 }
 
-// Radiance from one sample of the view ray under one sun, for columns to the camera and to the sun
-// together.
-void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_SIZE),
-                   ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), Real weight, int sun,
-                   INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
-  UNROLL for (int group = 0; group < GROUPS; ++group) {
-    Vec4 source = Vec4(0.0);
-    UNROLL for (int c = 0; c < MEDIA; ++c) {
-      source = source + scattering_phase[c * GROUPS_SIZE + group] * density[c];
-    }
-    Vec4 light = transmittance_of(column, group) * weight;
-    if (MANY_SUNS) light = light * sun_weight(sun, group);
-    inscatter[group] = inscatter[group] + source * light;
-  }
-}
-
 // Does `range` of the march. Columns from the camera to the sample and from the sample to the sun are
 // carried from one call to the next; radiance is added to `inscatter`.
 void march_view(Path path, MarchRange range, int view_samples, int light_samples,

@@ -75,31 +75,31 @@ Real tent_column(Real h, Real mu, Real length_km, int c) {
   return plain_column(h, mu, low, centre, c) + plain_column(h, mu, centre, high, c);
 }
 
-// Of one piece of a tabulated profile, whose node is known: no search.
-Real node_column(Vec4 node, Real h, Real mu, Real from_km, Real to_km) {
+// Between two distances at which a ray passes neighbouring nodes of a table, the lower one given.
+Real node_column(Real h, Real mu, Real from_km, Real to_km, Vec4 node) {
   Real column = 0.0;
-  UNROLL for (int i = 0; i < 4; ++i) {
-    Real distance_km = from_km + (to_km - from_km) * gauss4_node(i);
-    column += gauss4_weight(i) * density_above_node(node, altitude_after(h, mu, distance_km));
+  UNROLL for (int i = 0; i < 8; ++i) {
+    Real distance_km = from_km + (to_km - from_km) * gauss8_node(i);
+    Real x = altitude_after(h, mu, distance_km) - node.x;
+    column += gauss8_weight(i) * (node.y + node.z * x) * exp(node.w * x);
   }
   return column * (to_km - from_km);
 }
 
-// From node to node, in two halves: a node may span several scale heights.
 Real table_column(Real h, Real mu, Real length_km, int c) {
   MediumData m = medium(c);
   Real column = 0.0;
   Real from_km = 0.0;
-  for (int i = 1; i <= m.profile_nodes; ++i) {
-    Real to_km = i < m.profile_nodes
-                     ? distance_up_to(profile_nodes[m.profile_node + i].x, h, mu, length_km)
-                     : length_km;
-    if (to_km <= from_km) continue;
-    Vec4 node = profile_nodes[m.profile_node + i - 1];
-    Real middle_km = 0.5 * (from_km + to_km);
-    column += node_column(node, h, mu, from_km, middle_km);
-    column += node_column(node, h, mu, middle_km, to_km);
-    from_km = to_km;
+  Vec4 node = profile_nodes[m.profile_node];
+  for (int i = 1; i <= m.profile_nodes && from_km < length_km; ++i) {
+    Vec4 next = profile_nodes[m.profile_node + min(i, m.profile_nodes - 1)];
+    Real to_km =
+        i < m.profile_nodes ? distance_up_to(next.x, h, mu, length_km) : length_km;
+    if (to_km > from_km) {
+      column += node_column(h, mu, from_km, to_km, node);
+      from_km = to_km;
+    }
+    node = next;
   }
   return column;
 }

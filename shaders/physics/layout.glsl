@@ -22,7 +22,12 @@ struct SceneData {
   int width;
   int height;
   int disc_points;
-  int reserved;
+  int kinks;            // altitudes at which profiles bend, behind the rules (quadrature.glsl)
+
+  Real view_scale_km;   // height over which what scatters thins out (raymarch.glsl)
+  Real reserved_x;
+  Real reserved_y;
+  Real reserved_z;
 };
 
 // One constituent; `a` and `b` by type of profile (profile.glsl), `g` by type of phase (phase.glsl).

@@ -9,11 +9,6 @@
 //   table        nodes of (altitude, density, linear slope, logarithmic slope): with x the height
 //                above the node (density + linear x) exp(logarithmic x), one slope being 0
 
-Real density_above_node(Vec4 node, Real h) {
-  Real x = h - node.x;
-  return (node.y + node.z * x) * exp(node.w * x);
-}
-
 Real tabulated_density(Real h, int first, int count) {
   int low = first;
   int high = first + count;  // the node wanted is in [low, high)
@@ -25,7 +20,9 @@ Real tabulated_density(Real h, int first, int count) {
       high = middle;
     }
   }
-  return density_above_node(profile_nodes[low], h);
+  Vec4 node = profile_nodes[low];
+  Real x = h - node.x;
+  return (node.y + node.z * x) * exp(node.w * x);
 }
 
 Real relative_density(Real h, int c) {

@@ -18,6 +18,11 @@ bool meets_ground(Real h, Real mu) {
   return mu < 0.0 && b * b >= squared_height(h);
 }
 
+// Cosine of the horizon's zenith angle: rays above it miss the ground.
+Real horizon_cosine(Real h) {
+  return -sqrt(squared_height(h)) / (scene.planet_radius_km + h);
+}
+
 // Distance to the ground, for a ray that meets it: c / (-b + sqrt(b^2 - c)), exact near the ground.
 Real distance_to_ground(Real h, Real mu) {
   Real b = (scene.planet_radius_km + h) * mu;

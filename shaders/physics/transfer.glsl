@@ -9,3 +9,32 @@ Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
 
 // Radiance of the Lambertian ground under an irradiance of 1 on a horizontal plane, 1/sr.
 Vec4 lambertian(int group) { return ground_albedo(group) / PI; }
+
+// Radiance from one sample of the view ray under one sun, for columns to the camera and to the sun
+// together.
+void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_SIZE),
+                   ARRAY(Vec4, scattering_phase, MEDIA_GROUPS_SIZE), Real weight, int sun,
+                   INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 source = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      source = source + scattering_phase[c * GROUPS_SIZE + group] * density[c];
+    }
+    Vec4 light = transmittance_of(column, group) * weight;
+    if (MANY_SUNS) light = light * sun_weight(sun, group);
+    inscatter[group] = inscatter[group] + source * light;
+  }
+}
+
+// Extinction coefficient at an altitude, 1/km, of the wavelength where it is largest.
+Real largest_extinction(Real h) {
+  Real density[MEDIA_SIZE];
+  densities(h, density);
+  Real largest = 0.0;
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 sum = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) sum = sum + extinction(c, group) * density[c];
+    largest = max(max(largest, max(sum.x, sum.y)), max(sum.z, sum.w));
+  }
+  return largest;
+}

@@ -6,7 +6,7 @@
 layout(constant_id = 10) const int OPTICAL_DEPTH_COSINES = 2;
 layout(constant_id = 11) const int OPTICAL_DEPTH_ALTITUDES = 2;
 
-layout(std430, binding = 8) restrict buffer OpticalDepthBuffer { Vec4 optical_depths[]; };
+layout(std430, binding = OWN) restrict buffer OpticalDepthBuffer { Vec4 optical_depths[]; };
 
 #include "tables/optical_depth.glsl"
 

@@ -86,15 +86,15 @@ TEST(HillaireTables, TheShadowedPartIsWhereThePlanetHidesTheSun) {
             double sines = std::sqrt((1 - mu * mu) * (1 - mu_sun * mu_sun));
             auto ray = p.sunlit_ray(altitude, mu, p.meets_ground(altitude, mu), mu_sun,
                                     mu * mu_sun + sines * azimuth);
-            auto part = p.shadowed_part(ray);
-            found += part.to_km > part.from_km && part.from_km > 0;
+            auto part = p.shadow_over(ray);
+            found += part.leave_km > part.enter_km && part.enter_km > 0;
             for (int i = 0; i < 200; ++i) {
               double t = (i + 0.5) / 200 * ray.length_km;
               bool expected = in_shadow(p, ray, t), close = false;
-              for (double edge : {part.from_km, part.to_km}) {
+              for (double edge : {part.enter_km, part.leave_km}) {
                 close = close || std::abs(t - edge) < 1e-6 * ray.length_km;
               }
-              EXPECT_TRUE(close || expected == (t > part.from_km && t < part.to_km))
+              ASSERT_TRUE(close || expected == (t > part.enter_km && t < part.leave_km))
                   << "altitude " << altitude << " mu " << mu << " sun " << mu_sun << " t " << t;
             }
           }
@@ -112,7 +112,7 @@ TEST(HillaireTables, PanelsAddUpToTheColumnsOfTheirRay) {
     for (double mu : {-0.9, -0.1, -0.02, 0.0, 0.1, 1.0}) {
       bool ground = p.meets_ground(h, mu);
       auto ray = p.sunlit_ray(h, mu, ground, -0.05, -0.03);
-      auto panels = p.panels_along(ray, p.shadowed_part(ray), 48, 1.2);
+      auto panels = p.panels_along(ray, p.shadow_over(ray), 48, 1.2);
       double column[P::MEDIA_SIZE] = {}, expected[P::MEDIA_SIZE];
       glm::dvec4 density[P::MEDIA_SIZE], column_to[P::MEDIA_SIZE];
       for (int i = 0; i < p.number_of(panels); ++i) {

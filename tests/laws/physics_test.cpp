@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/irradiance.h"
+#include "engine/gauss_legendre.h"
 #include "engine/physics/pack.h"
 #include "engine/sky/pixel.h"
 #include "engine/sky/stars.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/irradiance.h"
+#include "engine/gauss_legendre.h"
 #include "engine/physics/pack.h"
 
 namespace cyanometer::oracle {

@@ -38,23 +38,6 @@ double share_within(const std::vector<double>& errors, double bound) {
          static_cast<double>(errors.size());
 }
 
-/// Directions that meet the planet, spread evenly over elevation and azimuth.
-std::vector<Direction> spread_directions(double altitude_km, int count) {
-  double lowest = -90, highest = 90;
-  if (altitude_km > 100) {
-    highest = -glm::degrees(std::acos(6460 / (6360 + altitude_km))) - 1e-6;
-    lowest = highest - 2 * (90 + highest);  // the planet from limb to limb, through the nadir
-  }
-  std::vector<Direction> directions;
-  for (int i = 0; i < count; ++i) {
-    double elevation = lowest + (highest - lowest) * (i + 0.5) / count;
-    double azimuth = std::fmod(137.50776 * i, 360);
-    directions.push_back(elevation >= -90 ? Direction{elevation, azimuth}
-                                          : Direction{-180 - elevation, azimuth});
-  }
-  return directions;
-}
-
 /// The largest difference of each direction over its wavelengths, in the contract's measure.
 std::vector<double> worst_by_direction(const Scene& scene,
                                        const std::vector<Direction>& directions) {

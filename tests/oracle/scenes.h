@@ -43,6 +43,23 @@ inline glm::dvec3 towards(double elevation_deg, double azimuth_deg) {
   return {std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)};
 }
 
+/// Directions that meet the planet, spread evenly over elevation and azimuth.
+inline std::vector<Direction> spread_directions(double altitude_km, int count) {
+  double lowest = -90, highest = 90;
+  if (altitude_km > 100) {
+    highest = -glm::degrees(std::acos(6460 / (6360 + altitude_km))) - 1e-6;
+    lowest = highest - 2 * (90 + highest);  // the planet from limb to limb, through the nadir
+  }
+  std::vector<Direction> directions;
+  for (int i = 0; i < count; ++i) {
+    double elevation = lowest + (highest - lowest) * (i + 0.5) / count;
+    double azimuth = std::fmod(137.50776 * i, 360);
+    directions.push_back(elevation >= -90 ? Direction{elevation, azimuth}
+                                          : Direction{-180 - elevation, azimuth});
+  }
+  return directions;
+}
+
 inline nlohmann::json published(const std::string& file) {
   std::ifstream stream(std::string(CYANOMETER_TEST_DATA) + "/" + file);
   return nlohmann::json::parse(stream);

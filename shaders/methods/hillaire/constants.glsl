@@ -8,7 +8,7 @@ layout(constant_id = 15) const int SKY_ELEVATIONS = 4;
 // The share of each constituent's scattering that changes a direction, by group of wavelengths: the rest is
 // a forward peak that goes straight on. Tables are made without it (with optical depths to match), and
 // first order is given back by pixels what it lost of its phase function.
-layout(std430, binding = 9) restrict readonly buffer KeptBuffer { Vec4 scattering_kept[]; };
+layout(std430, binding = OWN + 1) restrict readonly buffer KeptBuffer { Vec4 scattering_kept[]; };
 Vec4 forward_gain_[MEDIA_GROUPS_SIZE];
 #define forward_gain(c, group) forward_gain_[(c) * GROUPS + (group)]
 
@@ -21,7 +21,7 @@ void take_out_forward_peak() {
   }
 }
 
-#define OPTICAL_DEPTH_BINDING 8
+#define OPTICAL_DEPTH_BINDING OWN
 #include "tables/optical_depth_buffer.glsl"
 #include "methods/hillaire/coordinates.glsl"
 #include "methods/hillaire/march.glsl"

@@ -25,11 +25,6 @@ Real sun_cosine_at(Real x) {
 Real altitude_coordinate(Real h) { return sqrt(clamp(h / scene.thickness_km, 0.0, 1.0)); }
 Real altitude_at(Real y) { return y * y * scene.thickness_km; }
 
-// Cosine of the zenith angle of the horizon.
-Real horizon_cosine(Real h) {
-  return -sqrt(squared_height(h)) / (scene.planet_radius_km + h);
-}
-
 // From the horizon (0) to the zenith or the nadir (1), uniform in the square root of the difference of
 // cosines: about the horizon lengths of paths change like that [Hillaire 2020, section 5.3].
 Real elevation_coordinate(Real h, Real mu, bool meets_ground) {

@@ -5,7 +5,7 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 12) restrict buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = OWN + 4) restrict buffer ColumnBuffer { Real view_columns[]; };
 
 #include "methods/hillaire/view.glsl"
 

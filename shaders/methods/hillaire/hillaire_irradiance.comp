@@ -6,10 +6,10 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/second_order.glsl"
 
-layout(std430, binding = 10) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
+layout(std430, binding = OWN + 2) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
 // Of a sun twice GROUPS: sums over directions of the sky's radiance, and of what a unit of the ground's
 // diffuse radiance adds to it; in the end the ground's diffuse radiance, and the logarithm of the irradiance.
-layout(std430, binding = 11) restrict buffer SunsBuffer { Vec4 suns[]; };
+layout(std430, binding = OWN + 3) restrict buffer SunsBuffer { Vec4 suns[]; };
 
 layout(push_constant) uniform Push {
   int first;  // sun
@@ -40,7 +40,7 @@ void add_sky(SunlitRay ray, ScatteringAngle angle, INOUT_ARRAY(Vec4, radiance, G
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   scattering_towards(angle, scattering_phase);
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
-  Panels panels = panels_along(ray, shadowed_part(ray), push.samples, push.scale_height_km);
+  Panels panels = panels_along(ray, shadow_over(ray), push.samples, push.scale_height_km);
   int count = number_of(panels);
   for (int p = 0; p < count; ++p) {
     Panel panel = panel_of(panels, p);

@@ -6,8 +6,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 13) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = OWN + 5) restrict buffer TileBuffer { Vec4 tile[]; };
 
 #include "methods/hillaire/view.glsl"
 
@@ -41,7 +41,7 @@ void main() {
   Vec4 further[GROUPS];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   Vec4 ground[GROUPS];
-  march_view(ray, path, offset, push.samples, push.scale_height_km, push.all_orders != 0, column,
+  march_view(ray, path, push.sun, push.samples, push.scale_height_km, push.all_orders != 0, column,
              once, further);
   make_ratios(column, once, further);
   view_columns_of(ray, column);

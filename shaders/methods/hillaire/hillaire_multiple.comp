@@ -8,7 +8,7 @@
 
 // Of a texel three times GROUPS: sums over directions of what add_second_order gives; in the end order two
 // with its series, and what a unit of the ground's diffuse radiance adds.
-layout(std430, binding = 10) restrict buffer PartsBuffer { Vec4 parts[]; };
+layout(std430, binding = OWN + 2) restrict buffer PartsBuffer { Vec4 parts[]; };
 
 layout(push_constant) uniform Push {
   int first;  // texel

@@ -5,9 +5,9 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 13) restrict readonly buffer SkyBuffer { Vec4 sky_view[]; };
-layout(std430, binding = 14) restrict writeonly buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = OWN + 5) restrict readonly buffer SkyBuffer { Vec4 sky_view[]; };
+layout(std430, binding = OWN + 6) restrict writeonly buffer TileBuffer { Vec4 tile[]; };
 
 #include "methods/hillaire/view.glsl"
 #include "methods/hillaire/sky_view.glsl"

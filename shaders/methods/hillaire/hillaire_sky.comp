@@ -5,8 +5,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = 12) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = 13) restrict buffer SkyBuffer { Vec4 sky_view[]; };
+layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = OWN + 5) restrict buffer SkyBuffer { Vec4 sky_view[]; };
 
 #include "methods/hillaire/view.glsl"
 #include "methods/hillaire/sky_view.glsl"
@@ -31,7 +31,7 @@ void main() {
   Real column[MEDIA_SIZE];
   Vec4 once[MEDIA_GROUPS_SIZE];
   Vec4 further[GROUPS];
-  march_view(ray, idle, Vec3(0.0), push.samples, push.scale_height_km, push.all_orders != 0,
+  march_view(ray, idle, 0, push.samples, push.scale_height_km, push.all_orders != 0,
              column, once, further);
   make_ratios(column, once, further);
   int planes = sky_planes();

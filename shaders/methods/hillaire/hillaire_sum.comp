@@ -7,10 +7,10 @@
 layout(constant_id = 12) const int MULTIPLE_SUNS = 2;
 layout(constant_id = 13) const int MULTIPLE_ALTITUDES = 2;
 
-layout(std430, binding = 8) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
-layout(std430, binding = 9) restrict readonly buffer SunsBuffer { Vec4 suns[]; };
-layout(std430, binding = 10) restrict writeonly buffer MultipleBuffer { Vec4 log_multiple[]; };
-layout(std430, binding = 11) restrict writeonly buffer IrradianceBuffer { Vec4 log_irradiance[]; };
+layout(std430, binding = OWN) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
+layout(std430, binding = OWN + 1) restrict readonly buffer SunsBuffer { Vec4 suns[]; };
+layout(std430, binding = OWN + 2) restrict writeonly buffer MultipleBuffer { Vec4 log_multiple[]; };
+layout(std430, binding = OWN + 3) restrict writeonly buffer IrradianceBuffer { Vec4 log_irradiance[]; };
 
 layout(push_constant) uniform Push {
   int first;

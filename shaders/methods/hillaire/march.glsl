@@ -28,37 +28,24 @@ Real sun_cosine_after(SunlitRay ray, Real h, Real t) {
   return clamp(along / (scene.planet_radius_km + h), -1.0, 1.0);
 }
 
-// The part of a ray that lies in the planet's shadow under parallel light: inside the cylinder
-// |x|^2 - (x . sun)^2 = R^2, behind the planet. Empty where both ends are equal.
-struct ShadowedPart {
-  Real from_km;
-  Real to_km;
-};
-
-ShadowedPart shadowed_part(SunlitRay ray) {
-  ShadowedPart part;
-  Real radius = scene.planet_radius_km + ray.altitude_km;
-  Real along = radius * ray.mu_sun;
-  Real a = (1.0 - ray.nu) * (1.0 + ray.nu);
-  Real b = radius * ray.mu - along * ray.nu;
-  Real c = squared_height(ray.altitude_km) - along * along;
-  Real discriminant = b * b - a * c;
-  part.from_km = 0.0;
-  part.to_km = 0.0;
-  if (a < 1e-6) {  // along the light: in the shadow everywhere or nowhere
-    if (c < 0.0 && along < 0.0) part.to_km = ray.length_km;
-    return part;
-  }
-  if (discriminant <= 0.0) return part;
-  Real q = -(b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
-  Real one = q / a;
-  Real other = c / q;
-  Real from_km = clamp(min(one, other), 0.0, ray.length_km);
-  Real to_km = clamp(max(one, other), 0.0, ray.length_km);
-  if (along + 0.5 * (from_km + to_km) * ray.nu >= 0.0) return part;  // in front of the planet
-  part.from_km = from_km;
-  part.to_km = to_km;
-  return part;
+// The part of a ray that lies in the planet's shadow under parallel light. In the frame whose x axis is the
+// sun's horizontal part: where either is vertical, any azimuth is right.
+Shadow shadow_over(SunlitRay ray) {
+  Real sine = sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
+  Real sine_sun = sqrt(max(1.0 - ray.mu_sun * ray.mu_sun, 0.0));
+  Real across = sine_sun > 0.0 ? (ray.nu - ray.mu * ray.mu_sun) / sine_sun : sine;
+  across = clamp(across, -sine, sine);
+  Path path;
+  path.start = Vec3(0.0, 0.0, scene.planet_radius_km + ray.altitude_km);
+  path.direction = Vec3(across, sqrt(max(sine * sine - across * across, 0.0)), ray.mu);
+  path.altitude_km = ray.altitude_km;
+  path.mu = ray.mu;
+  path.length_km = ray.length_km;
+  path.meets_ground = ray.meets_ground;
+  Light light;
+  light.direction = Vec3(sine_sun, 0.0, ray.mu_sun);
+  light.inverse_km = 0.0;
+  return shadow_on(path, light, 0.0);
 }
 
 // Nodes along a ray: Gauss-Legendre in u, four a panel, distance = bend sinh(u) from the lowest point. So
@@ -80,20 +67,8 @@ int share_of(int samples, Real part, Real whole) {
   return max(1, int(0.25 * Real(samples) * part / whole + 0.5));
 }
 
-Real largest_extinction(Real h) {
-  Real largest = 0.0;
-  Real density[MEDIA_SIZE];
-  densities(h, density);
-  UNROLL for (int group = 0; group < GROUPS; ++group) {
-    Vec4 sum = Vec4(0.0);
-    UNROLL for (int c = 0; c < MEDIA; ++c) sum = sum + extinction(c, group) * density[c];
-    largest = max(largest, max(max(sum.x, sum.y), max(sum.z, sum.w)));
-  }
-  return largest;
-}
-
 // bend = 2 min(H / mu, sqrt(2 H r)), mu the zenith cosine at the low end; at most 4 mean free paths.
-Panels panels_along(SunlitRay ray, ShadowedPart shadow, int samples, Real scale_height_km) {
+Panels panels_along(SunlitRay ray, Shadow shadow, int samples, Real scale_height_km) {
   Panels panels;
   Real along = (scene.planet_radius_km + ray.altitude_km) * ray.mu;
   panels.low_km = clamp(-along, 0.0, ray.length_km);
@@ -105,7 +80,7 @@ Panels panels_along(SunlitRay ray, ShadowedPart shadow, int samples, Real scale_
   Real opacity = largest_extinction(low_h);
   if (bend_km * opacity > 4.0) bend_km = 4.0 / opacity;
   panels.bend_km = bend_km;
-  Vec4 distances = Vec4(0.0, shadow.from_km, shadow.to_km, ray.length_km) - panels.low_km;
+  Vec4 distances = Vec4(0.0, shadow.enter_km, shadow.leave_km, ray.length_km) - panels.low_km;
   panels.edges = asinh(distances / bend_km);
   Vec3 parts = Vec3(panels.edges.y - panels.edges.x, panels.edges.z - panels.edges.y,
                     panels.edges.w - panels.edges.z);

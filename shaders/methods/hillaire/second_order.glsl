@@ -20,7 +20,7 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
   Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
-  Panels panels = panels_along(ray, shadowed_part(ray), samples, scale_height_km);
+  Panels panels = panels_along(ray, shadow_over(ray), samples, scale_height_km);
   int count = number_of(panels);
   for (int p = 0; p < count; ++p) {
     Panel panel = panel_of(panels, p);

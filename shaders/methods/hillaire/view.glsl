@@ -27,8 +27,8 @@ SunlitRay view_ray(Path path, Vec3 to_sun) {
 
 // The march from the camera. Parallel light: columns of the constituents lit by the sun. A near sun, whose
 // direction changes along the ray: the same times scattering coefficient, phase and irradiance.
-// `path` and the sun's `offset` matter to a near sun alone.
-void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_height_km,
+// `path` and the `sun` (a point of the disc) matter to a near sun alone.
+void march_view(SunlitRay ray, Path path, int sun, int samples, Real scale_height_km,
                 bool all_orders, OUT_ARRAY(Real, column, MEDIA_SIZE),
                 OUT_ARRAY(Vec4, once, MEDIA_GROUPS_SIZE),
                 OUT_ARRAY(Vec4, further, GROUPS_SIZE)) {
@@ -41,10 +41,12 @@ void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_h
     further[group] = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) once[c * GROUPS_SIZE + group] = Vec4(0.0);
   }
-  ShadowedPart shadow;
-  shadow.from_km = 0.0;
-  shadow.to_km = 0.0;
-  if (!NEAR_SUN) shadow = shadowed_part(ray);
+  Shadow shadow;
+  if (NEAR_SUN) {
+    shadow = shadow_on(path, light_of_sun(sun), 0.0);
+  } else {
+    shadow = shadow_over(ray);
+  }
   Panels panels = panels_along(ray, shadow, samples, scale_height_km);
   int count = number_of(panels);
   for (int p = 0; p < count; ++p) {
@@ -53,16 +55,15 @@ void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_h
     for (int i = 0; i < 4; ++i) {
       Node node = node_of(ray, panel, i);
       Real irradiance = 1.0;
-      bool lit = panel.lit;
       if (NEAR_SUN) {
         Vec3 position = path.start + path.direction * node.distance_km;
-        SunRay sun = sun_ray(position, offset);
-        node.mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
-        irradiance = sun.irradiance;
-        lit = !meets_ground(node.altitude_km, node.mu_sun);
-        scattering_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
+        SunRay light_ray = sun_ray(position, MANY_SUNS ? sun_offset(sun) : Vec3(0.0));
+        node.mu_sun = clamp(dot(position, light_ray.direction) / length(position), -1.0, 1.0);
+        irradiance = light_ray.irradiance;
+        scattering_towards(scattering_angle(light_ray.direction, path.direction),
+                           scattering_phase);
       }
-      if (lit) transmittance_to_sun(node.altitude_km, node.mu_sun, light);
+      if (panel.lit) transmittance_to_sun(node.altitude_km, node.mu_sun, light);
       MultiplePosition place;
       if (all_orders) place = multiple_position(node.altitude_km, node.mu_sun);
       UNROLL for (int group = 0; group < GROUPS; ++group) {
@@ -70,7 +71,7 @@ void march_view(SunlitRay ray, Path path, Vec3 offset, int samples, Real scale_h
         Vec4 scattered = Vec4(0.0);
         UNROLL for (int c = 0; c < MEDIA; ++c) {
           scattered = scattered + scattering(c, group) * density[c][i];
-          if (!lit) continue;
+          if (!panel.lit) continue;
           Vec4 arrived = seen * light[group] * density[c][i];
           if (NEAR_SUN) arrived = arrived * scattering_phase[c * GROUPS_SIZE + group];
           once[c * GROUPS_SIZE + group] = once[c * GROUPS_SIZE + group] + arrived;

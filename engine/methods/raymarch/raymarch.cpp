@@ -1,0 +1,116 @@
+#include "engine/methods/raymarch/raymarch.h"
+
+#include <optional>
+
+#include "spirv/raymarch.spv.h"
+
+namespace cyanometer {
+namespace {
+
+struct Push {
+  std::int32_t first_ray, rays_in_tile, view_nodes, sun, pieces, first, last;
+};
+
+constexpr int most_pieces = Physics<float>::MOST_PIECES;
+
+/// Pieces of a ray whose loops stay below the drivers' limit.
+int pieces_at_once(const UploadedScene& scene, int view_nodes) {
+  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
+  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
+  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
+  if (a_piece > most_loop_iterations) {
+    throw OverLimit("/atmosphere/constituents",
+                    "the tables of all profiles together have " +
+                        std::to_string(scene.profile_nodes()) +
+                        " nodes, more than a march of so many view nodes can follow");
+  }
+  return std::min(most_loop_iterations / a_piece, most_pieces);
+}
+
+class Raymarch final : public Method {
+ public:
+  explicit Raymarch(vulkan::Device& device)
+      : kernel_(device, raymarch_spirv, UploadedScene::bindings + 2, sizeof(Push)) {}
+
+  const MethodDescription& description() const override { return raymarch_description(); }
+
+  int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
+                   const Pacer& pacer) const override {
+    constexpr std::int64_t fewest = 64, most = 1 << 16;
+    std::int64_t fit = pacer.evaluations() / cost(scene, options, 1);
+    return static_cast<int>(std::clamp(fit / 64 * 64, fewest, most));
+  }
+
+  void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
+             const Tile& tile) override {
+    int view_nodes = static_cast<int>(options.at("view_nodes"));
+    int pieces = pieces_at_once(scene, view_nodes);
+    std::vector<vulkan::Binding> bindings =
+        scene.bind({tile.values, progress_for(tracer.device, tile.rays)});
+    for (int sun = 0; sun < scene.disc_points(); ++sun) {
+      for (int done = 0; done < most_pieces; done += pieces) {
+        bool last = sun + 1 == scene.disc_points() && done + pieces >= most_pieces;
+        Push push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
+        tracer.commands.dispatch(kernel_, scene.constants(), bindings, vulkan::bytes_of(push),
+                                 {vulkan::groups_for(tile.rays, 64)});
+        tracer.pacer.took(cost(scene, options, tile.rays), tracer.submit());
+      }
+    }
+  }
+
+ private:
+  /// Evaluations of a number of rays under one sun.
+  static std::int64_t cost(const UploadedScene& scene, const MethodOptions& options,
+                           std::int64_t rays) {
+    constexpr int usual_pieces = 4, a_node = 12;
+    return rays * usual_pieces * static_cast<std::int64_t>(options.at("view_nodes")) * a_node *
+           std::max(scene.media(), 1);
+  }
+
+  const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
+    std::size_t bytes = sizeof(float) * rays;
+    if (!progress_ || progress_->size() < bytes) {
+      progress_.emplace(device, bytes, vulkan::Memory::device);
+    }
+    return *progress_;
+  }
+
+  vulkan::Kernel kernel_;
+  std::optional<vulkan::Buffer> progress_;
+};
+
+}  // namespace
+
+const MethodDescription& raymarch_description() {
+  static const MethodDescription description{
+      .name = "raymarch",
+      .title = "Gauss ray march",
+      .summary =
+          "Single scattering by Gauss-Legendre quadrature: each ray is cut at its lowest "
+          "point, "
+          "at the planet's shadow and where a layer begins or ends, and its nodes are spread "
+          "as "
+          "the air thins out.",
+      .highest_order = 1,
+      .limits =
+          {"Multiple scattering is left out: the blue of the sky is up to half too dark, "
+           "twilight and thick haze far too dark.",
+           "In haze of an optical depth of 1 a low sun needs more nodes than the default."},
+      .options = {{.name = "view_nodes",
+                   .title = "View nodes",
+                   .description = "Gauss nodes on each smooth piece of a view ray.",
+                   .unit = "",
+                   .minimum = 1,
+                   .maximum = Physics<float>::MOST_GAUSS_NODES,
+                   .default_value = 6,
+                   .integer = true,
+                   .logarithmic = true}},
+  };
+  return description;
+}
+
+std::unique_ptr<Method> make_raymarch(vulkan::Device& device) {
+  return std::make_unique<Raymarch>(device);
+}
+
+}  // namespace cyanometer

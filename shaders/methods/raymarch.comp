@@ -1,0 +1,55 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "device.glsl"
+#include "methods/raymarch.glsl"
+
+layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
+// How far along each ray the march has come under the present sun, km.
+layout(std430, binding = OWN + 1) restrict buffer ProgressBuffer { Real progress_km[]; };
+
+layout(push_constant) uniform Push {
+  int first_ray;      // of the tile, in the frame
+  int rays_in_tile;
+  int view_nodes;
+  int sun;
+  int pieces;         // of this dispatch
+  int first;          // of the sun's dispatches
+  int last;           // of all
+} push;
+
+void main() {
+  int i = int(gl_GlobalInvocationID.x);
+  int n = push.rays_in_tile;
+  if (i >= n) return;
+  load_scene();
+  load_media();
+  PixelRay pixel = pixel_ray(push.first_ray + i);
+  Path path = path_from_camera(pixel.direction);
+  if (!pixel.inside) {
+    path.length_km = 0.0;
+    path.meets_ground = false;
+  }
+  bool fresh = push.sun == 0 && push.first != 0;
+  Vec4 inscatter[GROUPS];
+  Vec4 ground[GROUPS];
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    inscatter[g] = fresh ? Vec4(0.0) : tile[(INSCATTER * GROUPS + g) * n + i];
+    ground[g] = fresh ? Vec4(0.0) : tile[(GROUND * GROUPS + g) * n + i];
+  }
+  Real from_km = push.first != 0 ? 0.0 : progress_km[i];
+  march_towards(path, push.sun, push.view_nodes, push.pieces, from_km, inscatter);
+  if (push.first != 0) light_ground_from(path, push.sun, ground);
+  progress_km[i] = from_km;
+
+  Real column[MEDIA_SIZE];
+  if (push.last != 0) columns_along(path.altitude_km, path.mu, path.length_km, column);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    if (push.last != 0) {
+      Vec4 transmittance = transmittance_of(column, g);
+      tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance;
+      ground[g] = ground[g] * transmittance;
+    }
+    tile[(INSCATTER * GROUPS + g) * n + i] = inscatter[g];
+    tile[(GROUND * GROUPS + g) * n + i] = ground[g];
+  }
+}
