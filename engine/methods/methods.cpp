@@ -1,4 +1,5 @@
 // The methods there are.
+#include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
 #include "engine/methods/raymarch/raymarch.h"
@@ -11,6 +12,7 @@ const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
       raymarch_description(),
+      hillaire_description(),
       moments_description(),
       path_description(),
   };
@@ -21,6 +23,7 @@ std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
   all.push_back(make_raymarch(device));
+  all.push_back(make_hillaire(device));
   all.push_back(make_moments(device));
   all.push_back(make_path(device));
   return all;
