@@ -56,9 +56,8 @@ TEST(Stars, TurnAboutAPoleThatStandsInTheNorthAtTheLatitude) {
   }
 }
 
-// The sun is no part of the catalogue's frame: that it comes out of its own orbit at the same
-// point among the stars from everywhere ties their turning to the time. The rest is its
-// parallax and the nutation.
+// The sun's place comes from the Earth's orbit: among the stars it is one point wherever it is
+// seen from, but for its parallax.
 TEST(Stars, StandAroundTheSameSunWhereverItIsSeenFrom) {
   const std::string time = "2024-08-09T05:40:00Z";
   glm::dvec3 there = sun_among_stars(seen_from(0, 0, time));
