@@ -132,9 +132,18 @@ const MethodDescription& hillaire_description() {
       .limits =
           {"Orders two and up scatter evenly into all directions, and light of each is taken "
            "to "
-           "be the same all around a point.",
-           "Of a number of orders above one, the series has as many terms; which light the "
-           "ground reflects is counted as if it came with the order before."},
+           "be the same all around a point: a frame is off by 3 to 8 % by day in clear air, 9 "
+           "to 18 % in haze, at sunset and in twilight, a quarter under thick clouds, a half "
+           "at "
+           "an orbital sunrise.",
+           "Light that went once sideways and once straight on is missing around the sun, and "
+           "taken from half of each forward peak instead.",
+           "Of a number of orders above one, the series has as many terms; light that the "
+           "ground reflects more than once is counted with all of its orders.",
+           "The sky of a camera between 20 and 100 km is off by up to 5 % next to the horizon, "
+           "where few rows of the table lie."},
+      // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
+      // and 16 samples do what 192 and 32 do.
       .options =
           {size_option("transmittance_cosines", "Transmittance: directions",
                        "Zenith cosines of the table of optical depths.", 8, 1024, 256),
@@ -150,12 +159,12 @@ const MethodDescription& hillaire_description() {
                        "Samples along each of these directions.", 4, 64, 20),
            size_option("sky_azimuths", "Sky view: azimuths",
                        "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
-                       192),
+                       64),
            size_option("sky_elevations", "Sky view: elevations",
                        "Elevations of the sky view, half above and half below the horizon.", 4,
                        512, 108),
            size_option("view_samples", "View samples",
-                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 32),
+                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16),
            {.name = "forward_share",
             .title = "Forward share",
             .description = "Of the light that its mean cosine says a constituent scatters "
@@ -177,9 +186,9 @@ const MethodDescription& hillaire_description() {
                   {"multiple_altitudes", 32},
                   {"multiple_directions", 64},
                   {"multiple_samples", 20},
-                  {"sky_azimuths", 192},
+                  {"sky_azimuths", 64},
                   {"sky_elevations", 108},
-                  {"view_samples", 32},
+                  {"view_samples", 16},
                   {"forward_share", 0.5},
                   {"march_pixels", 0}}}};
   return description;

@@ -20,7 +20,7 @@ constexpr std::size_t phase_tables_constant = 31;  // shaders/device.glsl
 constexpr int view_nodes = 2 * 2048;               // shaders/methods/hillaire/view.glsl
 
 /// The sky's irradiance needs more directions than isotropic light: phase functions have peaks.
-constexpr int irradiance_directions = 8;
+constexpr int irradiance_directions = 4;
 
 struct SpherePush {
   std::int32_t first, end, first_direction, end_direction, directions, samples, terms;
