@@ -75,6 +75,14 @@ TEST(Stars, HaveTheVernalEquinoxWhereTheSunIsAtTheEquinox) {
   EXPECT_LT(glm::degrees(glm::distance(sun, glm::dvec3(1, 0, 0))), 0.01);
 }
 
+TEST(Stars, TurnWestwardsWithTheSunThroughADay) {
+  glm::dvec3 first = sun_among_stars(seen_from(48, 2, "2024-06-20T00:00:00Z"));
+  for (const char* time : {"2024-06-20T06:00:00Z", "2024-06-20T13:00:00Z"}) {
+    glm::dvec3 later = sun_among_stars(seen_from(48, 2, time));
+    EXPECT_LT(glm::degrees(glm::distance(first, later)), 0.6) << time;
+  }
+}
+
 TEST(Stars, AreBackAfterASiderealDayAndTheSunIsADegreeFurtherEast) {
   Scene first = seen_from(48, 2, "2024-06-20T00:00:00Z");
   Scene later = seen_from(48, 2, "2024-06-20T23:56:04.0905Z");
