@@ -1,4 +1,5 @@
 // The methods there are.
+#include "engine/methods/bruneton/bruneton.h"
 #include "engine/methods/method.h"
 #include "engine/methods/nishita/nishita.h"
 #include "engine/methods/raymarch/raymarch.h"
@@ -9,6 +10,7 @@ const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
       nishita_description(),
       raymarch_description(),
+      bruneton_description(),
   };
   return all;
 }
@@ -17,6 +19,7 @@ std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
   all.push_back(make_raymarch(device));
+  all.push_back(make_bruneton(device));
   return all;
 }
 

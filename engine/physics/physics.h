@@ -93,6 +93,7 @@ struct Physics {
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
 #include "shaders/methods/raymarch.glsl"
+#include "shaders/methods/bruneton/grid.glsl"
   // clang-format on
 };
 
