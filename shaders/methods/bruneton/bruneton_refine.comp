@@ -18,14 +18,12 @@ layout(push_constant) uniform Push {
 
 struct Taps {
   int first;
-  int count;
   Real weight[4];
 };
 
 // Neighbours of a node of the finer grid.
 Taps taps_about(int node, int count) {
   Taps taps;
-  taps.count = min(count, 4);
   int interval = min(node / push.factor, max(count - 2, 0));
   taps.first = clamp(interval - 1, 0, max(count - 4, 0));
   Real t = Real(node) / Real(push.factor) - Real(taps.first);
@@ -33,7 +31,12 @@ Taps taps_about(int node, int count) {
   taps.weight[1] = t * (t - 2.0) * (t - 3.0) / 2.0;
   taps.weight[2] = t * (t - 1.0) * (3.0 - t) / 2.0;
   taps.weight[3] = t * (t - 1.0) * (t - 2.0) / 6.0;
-  if (count == 1) taps.weight[0] = 1.0;
+  if (count == 1) {
+    taps.weight[0] = 1.0;
+    taps.weight[1] = 0.0;
+    taps.weight[2] = 0.0;
+    taps.weight[3] = 0.0;
+  }
   return taps;
 }
 
@@ -48,11 +51,13 @@ void main() {
   Taps altitude = taps_about(rest % fine_altitudes, push.altitudes);
   int group = rest / fine_altitudes;
   Vec4 value = Vec4(0.0);
-  for (int a = 0; a < altitude.count; ++a) {
-    int row = (group * push.altitudes + altitude.first + a) * grid.suns + sun.first;
+  UNROLL for (int a = 0; a < 4; ++a) {
+    int row = group * push.altitudes + min(altitude.first + a, push.altitudes - 1);
     Vec4 in_row = Vec4(0.0);
-    for (int s = 0; s < sun.count; ++s) {
-      in_row = in_row + sun.weight[s] * coarse[(row + s) * push.directions + direction];
+    UNROLL for (int s = 0; s < 4; ++s) {
+      in_row = in_row + sun.weight[s] *
+                            coarse[(row * grid.suns + sun.first + s) * push.directions +
+                                   direction];
     }
     value = value + altitude.weight[a] * in_row;
   }

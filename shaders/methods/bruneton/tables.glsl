@@ -23,8 +23,10 @@ Real node_weight(int a, int z) {
 }
 Real node_azimuth(int k) { return PI * Real(k) / Real(max(grid.azimuths - 1, 1)); }
 
+// On the ground what looks down has come to it, along the horizon too.
 Real path_length(Real h, Real mu, bool below) {
-  return below ? distance_to_ground(h, mu) : distance_to_top(h, mu);
+  if (below) return h > 0.0 ? distance_to_ground(h, mu) : 0.0;
+  return distance_to_top(h, mu);
 }
 
 // A texel of a table over the whole grid; azimuths are next to each other, then zeniths, suns,
