@@ -3,6 +3,8 @@
 // What the physics files stand on in a shader: types, constants of the pipeline, buffers.
 // engine/physics/physics.h is the same for C++.
 #define Real float
+#define Uint uint
+#define UVec4 uvec4
 #define Vec2 vec2
 #define Vec3 vec3
 #define Vec4 vec4

@@ -1,7 +1,9 @@
 // The methods there are.
 #include "engine/methods/bruneton/bruneton.h"
 #include "engine/methods/method.h"
+#include "engine/methods/moments/moments.h"
 #include "engine/methods/nishita/nishita.h"
+#include "engine/methods/path/path.h"
 #include "engine/methods/raymarch/raymarch.h"
 
 namespace cyanometer {
@@ -11,6 +13,8 @@ const std::vector<MethodDescription>& methods() {
       nishita_description(),
       raymarch_description(),
       bruneton_description(),
+      moments_description(),
+      path_description(),
   };
   return all;
 }
@@ -20,6 +24,8 @@ std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   all.push_back(make_nishita(device));
   all.push_back(make_raymarch(device));
   all.push_back(make_bruneton(device));
+  all.push_back(make_moments(device));
+  all.push_back(make_path(device));
   return all;
 }
 

@@ -101,12 +101,7 @@ void set_profile(Physics<Real>& p, typename Physics<Real>::MediumData& data,
 
 template <class Real>
 void append_media(Physics<Real>& p, const Problem& problem) {
-  std::vector<const Medium*> ordered;
-  for (const Medium& medium : problem.media) ordered.push_back(&medium);
-  std::stable_sort(ordered.begin(), ordered.end(), [](const Medium* a, const Medium* b) {
-    return a->profile.index() < b->profile.index();
-  });
-  for (const Medium* medium : ordered) {
+  for (const Medium* medium : packed_media(problem)) {
     typename Physics<Real>::MediumData data{};
     set_profile(p, data, medium->profile, problem.thickness_km);
     bool scatters =
@@ -228,6 +223,15 @@ void set_sun(Physics<Real>& p, const Problem& problem) {
 }
 
 }  // namespace
+
+std::vector<const Medium*> packed_media(const Problem& problem) {
+  std::vector<const Medium*> ordered;
+  for (const Medium& medium : problem.media) ordered.push_back(&medium);
+  std::stable_sort(ordered.begin(), ordered.end(), [](const Medium* a, const Medium* b) {
+    return a->profile.index() < b->profile.index();
+  });
+  return ordered;
+}
 
 template <class Real>
 Physics<Real> pack(const Problem& problem) {

@@ -17,6 +17,9 @@ using physics::Physics;
 template <class Real>
 Physics<Real> pack(const Problem& problem);
 
+/// A problem's constituents in the order in which they are packed.
+std::vector<const Medium*> packed_media(const Problem& problem);
+
 /// Rays in these directions (unit; x east, y north, z up at the foot point) instead of the
 /// camera's.
 template <class Real>

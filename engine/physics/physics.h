@@ -26,6 +26,7 @@ using glm::normalize;
 using glm::pow;
 using glm::sin;
 using glm::sqrt;
+using glm::tan;
 
 #define CONSTANT static constexpr
 #define UNROLL
@@ -48,6 +49,8 @@ struct Physics {
   using Vec2 = glm::vec<2, Real>;
   using Vec3 = glm::vec<3, Real>;
   using Vec4 = glm::vec<4, Real>;
+  using Uint = glm::uint;
+  using UVec4 = glm::uvec4;
 
 #include "shaders/physics/layout.glsl"
 
@@ -69,6 +72,11 @@ struct Physics {
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
   std::vector<Vec2> quadrature;
+
+  // Of the method `path` alone (engine/methods/path/guide.h).
+  int SEGMENTS = 8;
+  bool GUIDED = false;
+  std::vector<Real> path_guide;
 
   const MediumData& medium(int c) const { return media[c]; }
   Vec4 extinction(int c, int group) const { return spectra[(2 + 3 * c) * GROUPS + group]; }
@@ -92,7 +100,9 @@ struct Physics {
 #include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/methods/nishita.glsl"
+#include "shaders/methods/moments.glsl"
 #include "shaders/methods/raymarch.glsl"
+#include "shaders/methods/path.glsl"
 #include "shaders/methods/bruneton/grid.glsl"
   // clang-format on
 };

@@ -4,6 +4,12 @@
 // Columns to the sun have a rule of their own at every node; columns to the camera grow from node to
 // node by a three-point rule.
 
+// The share of a constituent's extinction that dims light on its way to the camera: less than 1 for
+// methods that take light which a forward peak scatters straight on as not scattered.
+#ifndef VIEW_SHARE
+#define VIEW_SHARE(c) 1.0
+#endif
+
 // Optical depths over which the nodes next to a camera in dense air spread.
 CONSTANT Real VIEW_DEPTHS = 6.0;
 
@@ -134,7 +140,7 @@ void add_lit_piece(Path path, Piece piece, int sun, int view_nodes,
     if (NEAR_SUN) {
       scattering_towards(scattering_angle(ray.direction, path.direction), scattering_phase);
     }
-    UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += to_camera[c];
+    UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += VIEW_SHARE(c) * to_camera[c];
     add_scattered(column, density, scattering_phase, node.width_km * ray.irradiance, sun,
                   inscatter);
   }

@@ -1,4 +1,5 @@
-// Bruneton's tables against what does not know them: the adaptive integral, discrete ordinates, and laws.
+// Bruneton's tables against what does not know them: the adaptive integral, discrete ordinates,
+// and laws.
 #include "engine/methods/bruneton/bruneton.h"
 
 #include <gtest/gtest.h>
@@ -239,9 +240,9 @@ TEST(Bruneton, ItsTablesCanBeLookedAtAsPictures) {
     ASSERT_EQ(picture.frame.planes.size(), 3u);
     int pixels = picture.frame.width * picture.frame.height;
     for (const Frame::Plane& plane : picture.frame.planes) {
-      EXPECT_TRUE(std::all_of(plane.samples, plane.samples + pixels,
-                              [](float x) { return std::isfinite(x) && x >= 0; }))
-          << picture.name;
+      EXPECT_TRUE(std::all_of(plane.samples, plane.samples + pixels, [](float x) {
+        return std::isfinite(x) && x >= 0;
+      })) << picture.name;
     }
     // High suns are to the right, and brighter than night.
     const float* row = picture.frame.planes[1].samples;
@@ -258,8 +259,8 @@ TEST(Bruneton, ItsTablesCanBeLookedAtAsPictures) {
 }
 
 TEST(Bruneton, RefusesTablesThatTheDeviceCannotBind) {
-  MethodOptions options = with_options(
-      {{"altitudes", 128}, {"zeniths", 128}, {"suns", 256}, {"azimuths", 65}});
+  MethodOptions options =
+      with_options({{"altitudes", 128}, {"zeniths", 128}, {"suns", 256}, {"azimuths", 65}});
   try {
     radiance(hazy(0, 30, std::nullopt, options), {{90, 0}});
     FAIL() << "a table of 8 GiB was made";

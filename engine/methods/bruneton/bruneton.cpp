@@ -1,5 +1,7 @@
 #include "engine/methods/bruneton/bruneton.h"
 
+#include <cmath>
+
 #include "engine/methods/bruneton/tables.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "spirv/bruneton.spv.h"
@@ -9,6 +11,9 @@ namespace cyanometer {
 namespace {
 
 using bruneton::Setup;
+
+/// Of the density, that reading a table for a ray and a group of wavelengths is worth.
+constexpr int view_evaluations = 20;
 
 struct Push {
   std::int32_t first_ray, rays_in_tile;
@@ -24,6 +29,13 @@ class Bruneton final : public Method {
                      sizeof(Push)) {}
 
   const MethodDescription& description() const override { return bruneton_description(); }
+
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    double groups = std::ceil(static_cast<double>(problem.wavelengths_nm.size()) / 4);
+    return bruneton::evaluations(problem, Setup(options)) +
+           first_order_->evaluations(problem, options, rays) + rays * groups * view_evaluations;
+  }
 
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
@@ -48,7 +60,7 @@ class Bruneton final : public Method {
     auto table = tables_.single(tracer, scene, setup);
     run(tracer, scene, bruneton::view_constants(scene, setup, table->rays.rays), single_view_,
         {table->rays.grids, table->rays.nodes, table->values, table->particles, tile.values},
-        20 * scene.media() * scene.groups(), tile);
+        view_evaluations * scene.media() * scene.groups(), tile);
   }
 
   void add_multiple(Tracer& tracer, const UploadedScene& scene, const Setup& setup,
@@ -57,7 +69,7 @@ class Bruneton final : public Method {
     auto view = tables_.view(tracer, scene, setup);
     run(tracer, scene, bruneton::view_constants(scene, setup, view->rays.rays), view_,
         {view->rays.grids, view->rays.nodes, view->values, sources->irradiance, tile.values},
-        20 * scene.groups(), tile);
+        view_evaluations * scene.groups(), tile);
   }
 
   static void run(Tracer& tracer, const UploadedScene& scene,
@@ -89,10 +101,30 @@ MethodOption nodes(std::string name, std::string title, std::string description,
           .logarithmic = most > 4};
 }
 
-}  // namespace
+/// Small tables, the usual ones, and fine ones.
+std::vector<MethodOptions> ladder(const std::vector<MethodOption>& options) {
+  const std::vector<MethodOptions> changes{
+      {{"altitudes", 10}, {"zeniths", 14}, {"suns", 24}, {"azimuths", 7}, {"samples", 16}},
+      {},
+      {{"zeniths", 40},
+       {"azimuths", 17},
+       {"source_zeniths", 25},
+       {"source_azimuths", 13},
+       {"suns", 40},
+       {"samples", 32},
+       {"view_nodes", 8}}};
+  std::vector<MethodOptions> settings;
+  for (const MethodOptions& changed : changes) {
+    settings.emplace_back(changed);
+    for (const MethodOption& option : options) {
+      settings.back().emplace(option.name, option.default_value);
+    }
+  }
+  return settings;
+}
 
-const MethodDescription& bruneton_description() {
-  static const MethodDescription description{
+MethodDescription describe() {
+  MethodDescription description{
       .name = "bruneton",
       .title = "Bruneton's tables",
       .summary =
@@ -142,6 +174,14 @@ const MethodDescription& bruneton_description() {
                  "colours of the molecules' table.",
                  0, 2, 0)},
   };
+  description.ladder = ladder(description.options);
+  return description;
+}
+
+}  // namespace
+
+const MethodDescription& bruneton_description() {
+  static const MethodDescription description = describe();
   return description;
 }
 

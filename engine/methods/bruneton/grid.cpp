@@ -48,10 +48,9 @@ P::ScatteringGrid grid_of(const Problem& problem, const Setup& setup) {
 
 ScatteringGrid in_float(const P::ScatteringGrid& grid) {
   auto f = [](double x) { return static_cast<float>(x); };
-  return {grid.altitudes,      grid.zeniths,         grid.suns,
-          grid.azimuths,       grid.mapping,         grid.two_sided,
-          f(grid.highest_mu),  f(grid.lowest_sun),   f(grid.sun_shift),
-          f(grid.sun_width),   f(grid.sun_first),    f(grid.sun_span)};
+  return {grid.altitudes,    grid.zeniths,      grid.suns,          grid.azimuths,
+          grid.mapping,      grid.two_sided,    f(grid.highest_mu), f(grid.lowest_sun),
+          f(grid.sun_shift), f(grid.sun_width), f(grid.sun_first),  f(grid.sun_span)};
 }
 
 /// Value at x of the polynomial through the nodes first ... first + degree that is 1 at `node`

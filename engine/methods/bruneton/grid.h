@@ -14,12 +14,12 @@ using ScatteringGrid = Physics<float>::ScatteringGrid;
 struct Setup {
   explicit Setup(const MethodOptions& options);
 
-  int orders;                                 ///< computed; those beyond are estimated
-  int altitudes, zeniths, suns, azimuths;     ///< nodes; zeniths: of both sides together
-  int source_zeniths, source_azimuths;        ///< of the source's directions
-  int refinement;                             ///< of altitudes and suns, for reading
-  int cells;                                  ///< of a path, in orders from the second on
-  int view_nodes;                             ///< on each piece of a path, in the first order
+  int orders;                              ///< computed; those beyond are estimated
+  int altitudes, zeniths, suns, azimuths;  ///< nodes; zeniths: of both sides together
+  int source_zeniths, source_azimuths;     ///< of the source's directions
+  int refinement;                          ///< of altitudes and suns, for reading
+  int cells;                               ///< of a path, in orders from the second on
+  int view_nodes;                          ///< on each piece of a path, in the first order
   int mapping;
   bool two_sided;
   bool logarithmic;

@@ -32,8 +32,8 @@ std::vector<float> read_plane(const std::vector<glm::vec4>& values, const Layout
   std::vector<float> plane;
   for (int y = 0; y < layout.height(); ++y) {
     for (int x = 0; x < layout.width(); ++x) {
-      float value = values[wavelength / 4 * size + layout.texel(x, y)]
-                          [static_cast<int>(wavelength % 4)];
+      float value =
+          values[wavelength / 4 * size + layout.texel(x, y)][static_cast<int>(wavelength % 4)];
       plane.push_back(logarithmic ? std::exp(value) : value);
     }
   }

@@ -52,9 +52,9 @@ vulkan::Buffer table_buffer(vulkan::Device& device, std::size_t values,
   const vulkan::Limits& limits = device.limits();
   std::size_t most = std::min(limits.max_storage_range, limits.max_allocation);
   if (bytes > most) {
-    throw OverLimit("/method/" + option,
-                    what + " would take " + std::to_string(bytes >> 20) +
-                        " MiB; this device binds " + std::to_string(most >> 20));
+    throw OverLimit("/method/" + option, what + " would take " + std::to_string(bytes >> 20) +
+                                             " MiB; this device binds " +
+                                             std::to_string(most >> 20));
   }
   return {device, bytes, vulkan::Memory::device};
 }
@@ -83,6 +83,15 @@ std::size_t cell_values(const Rays& rays, int cells, int groups) {
   return static_cast<std::size_t>(rays.count()) * (cells + 1) * (2 + groups);
 }
 
+/// Refuses samples whose loops together are over the drivers' limit.
+void expect_few_rounds(int cells, int rounds_of_one) {
+  if (std::int64_t{cells} * rounds_of_one > most_loop_iterations) {
+    throw OverLimit("/method/samples",
+                    "in so many constituents a path has at most " +
+                        std::to_string(most_loop_iterations / rounds_of_one) + " samples");
+  }
+}
+
 /// What the tables of a request and the orders they hold depend on.
 std::string table_key(const UploadedScene& scene, const Setup& setup) {
   return setup.key() + " " + std::to_string(scene.problem().scattering_orders) + " " +
@@ -108,10 +117,10 @@ UploadedRays::UploadedRays(vulkan::Device& device, const Rays& rays_,
 
 SourceTables::SourceTables(vulkan::Device& device, const ScatteringGrid& grid_, int groups)
     : grid(grid_),
-      source(table_buffer(device,
-                          std::size_t{1} * grid.altitudes * grid.suns * grid.zeniths *
-                              grid.azimuths * groups,
-                          "source_zeniths", "the table of the source")),
+      source(table_buffer(
+          device,
+          std::size_t{1} * grid.altitudes * grid.suns * grid.zeniths * grid.azimuths * groups,
+          "source_zeniths", "the table of the source")),
       irradiance(table_buffer(device, std::size_t{1} * grid.suns * groups, "suns",
                               "the table of irradiance")) {}
 
@@ -147,6 +156,35 @@ TableMaker::TableMaker(vulkan::Device& device)
       refine_(device, bruneton_refine_spirv, grid_bindings + 2, sizeof(RefinePush)),
       single_(device, bruneton_single_spirv, grid_bindings + 3, sizeof(CellsPush)) {}
 
+namespace {
+
+// Evaluations of the density that one invocation of each kernel is worth.
+std::int64_t for_cells(std::int64_t media, int cells) { return 4 * cells * (media + 1); }
+std::int64_t for_redistribution(std::int64_t media) { return 4 * (media + 1); }
+std::int64_t for_source(std::int64_t incoming, std::int64_t groups) {
+  return incoming * groups / 2 + 1;
+}
+std::int64_t for_gathering(int cells, std::int64_t groups) { return 16 * cells * (1 + groups); }
+
+}  // namespace
+
+double evaluations(const Problem& problem, const Setup& setup) {
+  std::int64_t media = std::ssize(problem.media);
+  std::int64_t groups = (std::ssize(problem.wavelengths_nm) + 3) / 4;
+  double incoming = setup.zeniths * setup.azimuths;
+  double outgoing = setup.source_zeniths * setup.source_azimuths;
+  double places = setup.altitudes * setup.suns, orders = orders_to_compute(problem, setup);
+  auto times = [](double count, std::int64_t each) {
+    return count * static_cast<double>(each);
+  };
+  auto integral = static_cast<std::int64_t>(incoming);
+  return times(places * incoming, march_evaluations(media, setup.view_nodes)) +
+         (orders - 1) *
+             (times(places * outgoing, for_source(integral, groups)) +
+              times(setup.altitudes * incoming * outgoing, for_redistribution(media))) +
+         (orders - 2) * times(places * incoming, for_gathering(setup.cells, groups));
+}
+
 /// One making of tables.
 struct TableMaker::Work {
   Tracer& tracer;
@@ -174,10 +212,11 @@ struct TableMaker::Work {
 UploadedRays TableMaker::cut(const Work& work, const Rays& rays) {
   const UploadedScene& scene = work.scene;
   int cells = work.setup.cells;
+  expect_few_rounds(cells, 4 * scene.density_iterations());
   UploadedRays uploaded(work.tracer.device, rays, source_grid(scene.problem(), work.setup),
                         cells, scene.groups());
   work.fill(cells_, uploaded, {uploaded.cell_values}, rays.count(),
-            std::int64_t{4} * cells * (scene.media() + 1), CellsPush{0, 0, cells});
+            for_cells(scene.media(), cells), CellsPush{0, 0, cells});
   return uploaded;
 }
 
@@ -187,7 +226,7 @@ void TableMaker::find_first_order(const Work& work, const UploadedRays& rays,
   Tracer& tracer = work.tracer;
   int view_nodes = work.setup.view_nodes;
   int pieces = march_pieces_at_once(work.scene, view_nodes);
-  std::int64_t evaluations = march_evaluations(work.scene, view_nodes);
+  std::int64_t evaluations = march_evaluations(work.scene.media(), view_nodes);
   vulkan::Buffer progress(tracer.device, most * sizeof(float), vulkan::Memory::device);
   std::vector<vulkan::Binding> bindings = work.bind(rays, {to, progress});
   FirstPush push{0, 0, view_nodes, pieces, 0, 0};
@@ -215,9 +254,9 @@ void TableMaker::find_source(const Work& work, const UploadedRays& rays,
                    "source_zeniths", "the redistribution between directions");
   for (int altitude = 0; altitude < rays.rays.grid.altitudes; ++altitude) {
     work.fill(redistribute_, rays, {shares}, std::int64_t{1} * incoming * outgoing,
-              4 * (work.scene.media() + 1), SlicePush{0, 0, altitude});
+              for_redistribution(work.scene.media()), SlicePush{0, 0, altitude});
     work.fill(source_, rays, {shares, radiance, to},
-              std::int64_t{1} * outgoing * rays.rays.grid.suns, incoming * groups / 2 + 1,
+              std::int64_t{1} * outgoing * rays.rays.grid.suns, for_source(incoming, groups),
               SlicePush{0, 0, altitude});
   }
 }
@@ -225,7 +264,7 @@ void TableMaker::find_source(const Work& work, const UploadedRays& rays,
 void TableMaker::find_irradiance(const Work& work, const UploadedRays& rays,
                                  const vulkan::Buffer& radiance, const vulkan::Buffer& to) {
   work.fill(irradiance_, rays, {radiance, to}, rays.rays.grid.suns,
-            rays.rays.directions() * work.scene.groups() / 2 + 1, RangePush{0, 0});
+            for_source(rays.rays.directions(), work.scene.groups()), RangePush{0, 0});
 }
 
 /// A quantity over altitudes, suns and directions by order, summed over orders, and what of it
@@ -268,7 +307,7 @@ void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum&
             2 * rays.rays.grid.suns,
             OrderPush{0, 0, sum.directions, sum.count == 0, orders.last, tail});
   work.fill(refine_, rays, {sum.encoded, sum.result},
-            static_cast<std::int64_t>(sum.result.size() / vec4_bytes), 8,
+            static_cast<std::int64_t>(sum.result.size() / vec4_bytes), 16,
             RefinePush{0, 0, sum.directions, sum.altitudes, work.setup.refinement});
   ++sum.count;
 }
@@ -276,10 +315,9 @@ void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum&
 void TableMaker::gather(const Work& work, const UploadedRays& rays, const SourceTables& from,
                         Leave leave, const vulkan::Buffer& to) {
   int groups = work.scene.groups();
-  std::int64_t fetches = 8 * groups;
   bool view = leave == Leave::view_without;
   work.fill(gather_, rays, {rays.cell_values, from.source, from.irradiance, to},
-            rays.rays.texels(), rays.cells * (4 + fetches / 2),
+            rays.rays.texels(), for_gathering(rays.cells, groups),
             GatherPush{0, 0, rays.cells, !view, view});
 }
 
@@ -328,12 +366,15 @@ std::shared_ptr<const SingleTable> TableMaker::make_single(Work work) {
   vulkan::Device& device = work.tracer.device;
   int groups = work.scene.groups(), media = std::max(work.scene.media(), 1);
   bool separate = work.setup.first == Setup::First::separate;
+  expect_few_rounds(work.setup.cells,
+                    work.scene.density_iterations() + 2 * (media + work.scene.profile_nodes()));
   UploadedRays rays = cut(work, all_rays(work.scene.problem(), work.setup));
-  vulkan::Buffer values = scattering_buffer(device, rays.rays, separate ? media * groups : groups);
+  vulkan::Buffer values =
+      scattering_buffer(device, rays.rays, separate ? media * groups : groups);
   // Four values of one wavelength in the room of a group's.
-  vulkan::Buffer particles = table_buffer(
-      device, separate ? 1 : std::size_t{1} * media * rays.rays.texels() / 4 + 1, "zeniths",
-      "a table of particles");
+  vulkan::Buffer particles =
+      table_buffer(device, separate ? 1 : std::size_t{1} * media * rays.rays.texels() / 4 + 1,
+                   "zeniths", "a table of particles");
   work.fill(single_, rays, {rays.cell_values, values, particles}, rays.rays.texels(),
             rays.cells * std::int64_t{12} * media, CellsPush{0, 0, rays.cells});
   return std::make_shared<SingleTable>(std::move(rays), std::move(values),

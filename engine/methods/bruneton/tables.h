@@ -1,7 +1,7 @@
 // The tables of an atmosphere, made on the device order by order.
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "engine/methods/bruneton/grid.h"
 #include "engine/methods/method.h"
@@ -15,7 +15,7 @@ struct UploadedRays {
 
   Rays rays;
   int cells;
-  vulkan::Buffer grids;        ///< of the rays, and of what they gather
+  vulkan::Buffer grids;  ///< of the rays, and of what they gather
   vulkan::Buffer nodes;
   vulkan::Buffer cell_values;  ///< by ray and cell: place, and what comes from there
 
@@ -52,14 +52,15 @@ class SingleTable final : public Tables {
       : rays(std::move(uploaded)),
         values(std::move(values_)),
         particles(std::move(particles_)) {}
-  std::size_t bytes() const override {
-    return rays.bytes() + values.size() + particles.size();
-  }
+  std::size_t bytes() const override { return rays.bytes() + values.size() + particles.size(); }
 
   UploadedRays rays;
   vulkan::Buffer values;     ///< of all constituents, or of the molecules together
   vulkan::Buffer particles;  ///< of particles, the first wavelength alone
 };
+
+/// What making the tables costs, in evaluations of the density; roughly.
+double evaluations(const Problem& problem, const Setup& setup);
 
 /// Constants of the pipelines: of tables, which know neither camera nor sun, and of views.
 vulkan::Specialization table_constants(const UploadedScene& scene, const Setup& setup);

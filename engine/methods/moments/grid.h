@@ -1,0 +1,19 @@
+// Where the moment tables have their nodes, and how many orders a scene takes.
+#pragma once
+
+#include "engine/physics/physics.h"
+#include "engine/problem.h"
+
+namespace cyanometer {
+
+/// Nodes that suit the scene's air: dense where it scatters, and about the edge of its planet's
+/// shadow.
+template <class Real>
+typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, int altitudes,
+                                                        int suns);
+
+/// Orders after which each is the same share of the one before, so that a geometric series
+/// closes the sum.
+int orders_until_geometric(const Problem& problem);
+
+}  // namespace cyanometer

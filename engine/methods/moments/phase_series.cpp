@@ -1,0 +1,195 @@
+#include "engine/methods/moments/phase_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/optics/legendre.h"
+#include "engine/optics/profile.h"
+#include "engine/physics/pack.h"
+
+namespace cyanometer {
+namespace {
+
+constexpr double four_pi = 4 * std::numbers::pi;
+/// Nodes of the aureole's function, even in the fourth root of (1 - cos) / 2.
+constexpr int aureole_nodes = 129;
+/// Further terms of the sharpest peaks than this are below what the nodes resolve.
+constexpr int most_terms = 4096;
+
+using Coefficients = std::vector<std::vector<double>>;  ///< [wavelength][l]
+
+bool is_particle(const Medium& medium) {
+  return !std::holds_alternative<RayleighPhase>(medium.phase) &&
+         std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; });
+}
+
+Coefficients coefficients_of(const Medium& medium, int degree) {
+  Coefficients all;
+  for (std::size_t w = 0; w < medium.scattering_per_km.size(); ++w) {
+    all.push_back(legendre_coefficients(medium.phase, w, degree));
+  }
+  return all;
+}
+
+/// Twice as many terms until the last one is nothing.
+Coefficients all_coefficients(const Medium& medium, int degree) {
+  Coefficients all = coefficients_of(medium, degree);
+  auto unfinished = [](const std::vector<double>& chi) { return std::abs(chi.back()) > 1e-4; };
+  while (degree < most_terms && std::ranges::any_of(all, unfinished)) {
+    degree = std::min(2 * degree, most_terms);
+    all = coefficients_of(medium, degree);
+  }
+  return all;
+}
+
+/// Share of a constituent's extinction that counts as not there: the same at all wavelengths,
+/// so that it scales the constituent's columns.
+double straight_on(const Medium& medium, const Coefficients& chi, int degree) {
+  double share = 1;
+  for (std::size_t w = 0; w < chi.size(); ++w) {
+    double scattering = medium.scattering_per_km[w];
+    double extinction = scattering + medium.absorption_per_km[w];
+    if (extinction > 0) {
+      share = std::min(share, std::max(chi[w][degree + 1], 0.0) / 2 * scattering / extinction);
+    }
+  }
+  return share;
+}
+
+class Layout {
+ public:
+  Layout(const Problem& problem, int degree)
+      : media_(std::max<std::size_t>(problem.media.size(), 1)),
+        groups_((problem.wavelengths_nm.size() + 3) / 4),
+        terms_(2 * degree + 3),
+        values_(media_ * ((terms_ + 1) * groups_ + 1) + aureole_nodes * groups_, glm::vec4(0)) {
+  }
+
+  std::size_t terms() const { return terms_; }
+  void set_series(std::size_t c, std::size_t l, std::size_t w, double value) {
+    set((c * terms_ + l) * groups_, w, value);
+  }
+  void set_peak(std::size_t c, std::size_t w, double value) {
+    set((media_ * terms_ + c) * groups_, w, value);
+  }
+  void set_view_share(std::size_t c, double value) {
+    values_[media_ * (terms_ + 1) * groups_ + c].x = static_cast<float>(value);
+  }
+  void set_aureole(std::size_t node, std::size_t w, double value) {
+    set(media_ * ((terms_ + 1) * groups_ + 1) + node * groups_, w, value);
+  }
+  std::vector<glm::vec4> take() { return std::move(values_); }
+
+ private:
+  void set(std::size_t first, std::size_t w, double value) {
+    values_[first + w / 4][static_cast<int>(w % 4)] = static_cast<float>(value);
+  }
+
+  std::size_t media_, groups_, terms_;
+  std::vector<glm::vec4> values_;
+};
+
+/// What light near the sun, whose moments about the sun fall as those of the functions that
+/// scattered it, adds beyond the moments kept: sum over l > L of (2 l + 1) / (4 pi)
+/// (chi_l - f) X_l / X_(L+1) P_l, chi and X the mean over all particles.
+struct Aureole {
+  std::vector<double> passed;     ///< mean of chi_l - f, by l
+  std::vector<double> scattered;  ///< X_l
+  double weight = 0;
+
+  void add(const std::vector<double>& chi, double f, double depth) {
+    std::size_t size = std::max(chi.size(), scattered.size());
+    scattered.resize(size, 0.0);
+    passed.resize(size, 0.0);
+    for (std::size_t l = 0; l < size; ++l) {
+      double value = l < chi.size() ? chi[l] : 0.0;
+      scattered[l] += depth * value;
+      passed[l] += depth * (value - f);
+    }
+    weight += depth;
+  }
+
+  double at(double cosine, int degree) const {
+    std::size_t first = degree + 1;
+    if (weight <= 0 || scattered.size() <= first || scattered[first] < 1e-6 * weight) return 0;
+    double sum = 0, before = 0, p = 1;
+    for (std::size_t l = 0; l < scattered.size(); ++l) {
+      double n = static_cast<double>(l);
+      if (l >= first) {
+        sum += (2 * n + 1) / four_pi * passed[l] / weight * scattered[l] / scattered[first] * p;
+      }
+      double next = ((2 * n + 1) * cosine * p - n * before) / (n + 1);
+      before = p;
+      p = next;
+    }
+    return sum;
+  }
+};
+
+void set_aureole(Layout& layout, std::size_t w, const Aureole& aureole, int degree) {
+  for (int node = 0; node < aureole_nodes; ++node) {
+    double root = static_cast<double>(node) / (aureole_nodes - 1);
+    layout.set_aureole(node, w, aureole.at(1 - 2 * root * root * root * root, degree));
+  }
+}
+
+}  // namespace
+
+std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
+                                          int degree) {
+  if (auto* rayleigh = std::get_if<RayleighPhase>(&phase)) {
+    return rayleigh_coefficients(rayleigh->gamma.empty() ? 0 : rayleigh->gamma[wavelength],
+                                 degree);
+  }
+  if (auto* hg = std::get_if<HenyeyGreenstein>(&phase)) {
+    return henyey_greenstein_coefficients(hg->g, degree);
+  }
+  if (auto* cs = std::get_if<CornetteShanks>(&phase)) {
+    return cornette_shanks_coefficients(cs->g, degree);
+  }
+  const TabulatedPhase& table = std::get<TabulatedPhase>(phase);
+  return tabulated_coefficients(table.angle_rad, table.values[wavelength], degree);
+}
+
+PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks) {
+  Layout layout(problem, degree);
+  PhaseSeries result;
+  std::vector<Aureole> aureoles(problem.wavelengths_nm.size());
+  std::vector<const Medium*> media = packed_media(problem);
+  for (std::size_t c = 0; c < media.size(); ++c) {
+    const Medium& medium = *media[c];
+    layout.set_view_share(c, 1);
+    if (!std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; }))
+      continue;
+    bool particle = is_particle(medium);
+    int terms = static_cast<int>(layout.terms());
+    Coefficients chi =
+        particle ? all_coefficients(medium, 4 * terms) : coefficients_of(medium, terms);
+    double straight = particle && peaks ? straight_on(medium, chi, degree) : 0;
+    layout.set_view_share(c, 1 - straight);
+    double column = column_km(medium.profile, problem.thickness_km);
+    for (std::size_t w = 0; w < chi.size(); ++w) {
+      double scattering = medium.scattering_per_km[w];
+      double f = scattering > 0
+                     ? straight * (scattering + medium.absorption_per_km[w]) / scattering
+                     : 0;
+      layout.set_peak(c, w, f);
+      for (int l = 0; l < terms; ++l) {
+        // A smooth end of the series: cut off it would ring, and be negative.
+        double beyond = std::max(l - degree, 0) / static_cast<double>(terms - degree);
+        layout.set_series(c, l, w,
+                          (2 * l + 1) / four_pi * chi[w][l] * std::exp(-2 * beyond * beyond));
+      }
+      if (particle) aureoles[w].add(chi[w], f, scattering * column);
+    }
+    result.particles = result.particles || particle;
+  }
+  for (std::size_t w = 0; w < aureoles.size(); ++w) {
+    set_aureole(layout, w, aureoles[w], degree);
+  }
+  result.values = layout.take();
+  return result;
+}
+
+}  // namespace cyanometer

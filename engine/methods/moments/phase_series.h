@@ -1,0 +1,28 @@
+// The phase functions of a problem as the moment tables use them: Legendre coefficients, the
+// share of a forward peak that counts as not scattered, and the aureole that the moments leave
+// out.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/problem.h"
+
+namespace cyanometer {
+
+struct PhaseSeries {
+  bool particles = false;  ///< whether any function has odd terms
+  /// As shaders/methods/moments_device.glsl and moments_view.glsl lay it out.
+  std::vector<glm::vec4> values;
+};
+
+/// Legendre coefficients chi_0 to chi_degree at one of the problem's wavelengths.
+std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
+                                          int degree);
+
+/// @param degree  of the moments, L
+/// @param peaks   whether half of chi_(L+1) counts as a peak that goes straight on [Wiscombe
+/// 1977 has all of it: right for fluxes, too much for light from the horizon]
+PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks);
+
+}  // namespace cyanometer

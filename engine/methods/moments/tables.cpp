@@ -1,0 +1,286 @@
+#include "engine/methods/moments/tables.h"
+
+#include <algorithm>
+#include <span>
+
+#include "engine/methods/moments/grid.h"
+#include "spirv/moments_first.spv.h"
+#include "spirv/moments_next.spv.h"
+#include "spirv/moments_project.spv.h"
+#include "spirv/moments_rays.spv.h"
+#include "spirv/moments_refine.spv.h"
+#include "spirv/moments_rows.spv.h"
+
+namespace cyanometer {
+namespace {
+
+using Grid = MomentTables::Grid;
+
+/// shaders/methods/moments_device.glsl
+struct Push {
+  Grid grid;
+  std::int32_t fine_altitudes, up, down, azimuths, steps, first_steps, first, end,
+      first_azimuth, end_azimuth, first_altitude, last, tail;
+};
+struct RefinePush {
+  MomentSolver::Axis axis;
+  std::int32_t first, end;
+};
+
+/// Nodes of a finer table that linear interpolation reads as if it were cubic.
+int finer(int nodes, int most) {
+  return (nodes - 1) * std::clamp(most / (nodes - 1), 1, 4) + 1;
+}
+int finer_altitudes(int nodes) { return finer(nodes, 64); }
+int finer_suns(int nodes) { return finer(nodes, 128); }
+
+int slots_of(int degree) { return (degree + 1) * (degree + 2) / 2 + 1; }
+
+constexpr std::size_t value_bytes = 16;
+
+/// One solution: its sizes, its buffers, its passes.
+class Solution {
+ public:
+  Solution(Tracer& tracer, const UploadedScene& scene, const MomentSettings& settings,
+           const PhaseSeries& series, MomentTables& tables)
+      : tracer_(tracer),
+        scene_(scene),
+        settings_(settings),
+        grid_(tables.grid),
+        tables_(tables),
+        constants_(moment_constants(scene, settings.degree, series.particles)),
+        groups_(scene.groups()),
+        up_(settings.directions),
+        down_(std::max(settings.directions / 2, 3)),
+        rows_at_once_(static_cast<int>(
+            std::clamp<std::int64_t>(most_row_values / row_values(), 1, settings.altitudes))),
+        rays_(tracer.device, ray_values() * value_bytes, vulkan::Memory::device),
+        light_(tracer.device, light_values() * value_bytes, vulkan::Memory::device),
+        moments_(tracer.device, moment_values() * value_bytes, vulkan::Memory::device),
+        rows_(tracer.device, rows_at_once_ * row_values() * value_bytes,
+              vulkan::Memory::device),
+        work_(tracer) {
+    tracer.commands.fill(moments_, 0);
+  }
+
+  void trace_rays(const vulkan::Kernel& kernel) {
+    run(kernel, grid_.altitudes * rays() * (settings_.steps + 1), 16 * media(), push());
+  }
+
+  void trace_first_order(const vulkan::Kernel& kernel) {
+    int rounds = 2 * rounds_of_a_piece(scene_, first_steps());
+    int at_once = std::max(most_loop_iterations / rounds, 1);
+    require_rounds(scene_, rounds);
+    for (int first = 0; first < settings_.azimuths; first += at_once) {
+      Push part = push();
+      part.first_azimuth = first;
+      part.end_azimuth = std::min(first + at_once, settings_.azimuths);
+      std::int64_t nodes = (part.end_azimuth - first) * 4 * first_steps() / 3;
+      run(kernel, grid_.altitudes * rays() * grid_.suns, nodes * 12 * media(), part);
+    }
+  }
+
+  void project(const vulkan::Kernel& kernel, bool last) {
+    Push all = push();
+    all.last = last;
+    all.tail = last && settings_.tail;
+    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, all);
+  }
+
+  void refine_altitudes(MomentSolver& solver) {
+    int table = table_values(grid_.altitudes);
+    solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
+                  {0, 2 * table, grid_.altitudes, finer_altitudes(grid_.altitudes),
+                   grid_.suns * slots() * groups_, 0});
+  }
+
+  void trace_next_order(const vulkan::Kernel& rows, const vulkan::Kernel& next) {
+    for (int first = 0; first < grid_.altitudes; first += rows_at_once_) {
+      Push part = push();
+      part.first_altitude = first;
+      int altitudes = std::min(rows_at_once_, grid_.altitudes - first);
+      int suns = altitudes * rays() * grid_.suns * groups_;
+      run(rows, suns * settings_.steps, 2 * slots(), part);
+      run(next, suns, settings_.azimuths * settings_.steps * 4 * (settings_.degree + 2), part);
+    }
+  }
+
+  /// The sum, as skies read it.
+  void finish(MomentSolver& solver) {
+    refine_altitudes(solver);
+    int fine_altitudes = tables_.fine_altitudes;
+    solver.refine(work_, tracer_, scene_, moments_, tables_.moments, fine_altitudes,
+                  {2 * table_values(grid_.altitudes), 0, grid_.suns, tables_.fine_suns,
+                   slots() * groups_, 0});
+    solver.refine(work_, tracer_, scene_, moments_, tables_.moments, 1,
+                  {grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
+                   grid_.suns, tables_.fine_suns, groups_, 0});
+    work_.submit();
+  }
+
+ private:
+  static constexpr std::int64_t most_row_values = 1 << 22;  // 64 MiB
+
+  int media() const { return std::max(scene_.media(), 1); }
+  int slots() const { return slots_of(settings_.degree); }
+  int rays() const { return up_ + down_; }
+  /// The light of the sun changes faster than what it causes.
+  int first_steps() const {
+    return std::min(settings_.steps + 4, int{Physics<float>::MOST_GAUSS_NODES});
+  }
+  // Sizes in values of four wavelengths, as shaders/methods/moments_device.glsl counts them.
+  std::int64_t row_values() const {  // of one altitude
+    return std::int64_t{rays()} * settings_.steps * settings_.suns * (settings_.degree + 2) *
+           groups_;
+  }
+  std::int64_t ray_values() const {
+    std::int64_t node = 2 + (settings_.degree + 1) * groups_;
+    return std::int64_t{settings_.altitudes} * rays() * (settings_.steps * node + groups_);
+  }
+  std::int64_t light_values() const {
+    return std::int64_t{settings_.altitudes} * rays() * settings_.suns *
+           (settings_.degree + 2) * groups_;
+  }
+  int table_values(int altitudes) const {
+    return (altitudes * slots() + 1) * settings_.suns * groups_;
+  }
+  std::int64_t moment_values() const {
+    return 2 * table_values(settings_.altitudes) +
+           table_values(finer_altitudes(settings_.altitudes));
+  }
+
+  Push push() const {
+    return {grid_,
+            finer_altitudes(grid_.altitudes),
+            up_,
+            down_,
+            settings_.azimuths,
+            settings_.steps,
+            first_steps(),
+            0,
+            0,
+            0,
+            settings_.azimuths,
+            0,
+            false,
+            false};
+  }
+
+  void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
+    std::vector<vulkan::Binding> bindings =
+        scene_.bind({tables_.series, rays_, light_, moments_, rows_});
+    work_.run(count, std::max<std::int64_t>(evaluations_each / 8, 1), [&](int first, int end) {
+      part.first = first;
+      part.end = end;
+      tracer_.commands.dispatch(kernel, constants_, bindings, vulkan::bytes_of(part),
+                                {vulkan::groups_for(end - first, 64)});
+    });
+  }
+
+  Tracer& tracer_;
+  const UploadedScene& scene_;
+  const MomentSettings& settings_;
+  Grid grid_;
+  MomentTables& tables_;
+  vulkan::Specialization constants_;
+  int groups_, up_, down_, rows_at_once_;
+  vulkan::Buffer rays_, light_, moments_, rows_;
+  PacedWork work_;
+};
+
+}  // namespace
+
+std::string MomentSettings::key() const {
+  std::string key;
+  for (int value : {degree, altitudes, suns, directions, azimuths, steps, orders, int{tail}}) {
+    key += std::to_string(value) + ",";
+  }
+  return key;
+}
+
+MomentTables::MomentTables(vulkan::Device& device, const Grid& grid_, const PhaseSeries& phases,
+                           int degree, int groups)
+    : grid(grid_),
+      particles(phases.particles),
+      fine_altitudes(finer_altitudes(grid.altitudes)),
+      fine_suns(finer_suns(grid.suns)),
+      irradiance(fine_altitudes * fine_suns * slots_of(degree) * groups),
+      series(device, phases.values.size() * value_bytes, vulkan::Memory::device),
+      moments(device, (irradiance + fine_suns * groups) * value_bytes, vulkan::Memory::device) {
+  series.write(0, std::as_bytes(std::span(phases.values)));
+}
+
+void PacedWork::submit() {
+  if (pending_ == 0) return;
+  tracer_.pacer.took(pending_, tracer_.submit());
+  pending_ = 0;
+}
+
+MomentSolver::MomentSolver(vulkan::Device& device)
+    : rays_(device, moments_rays_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      first_(device, moments_first_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      project_(device, moments_project_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      rows_(device, moments_rows_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      next_(device, moments_next_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
+
+std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
+                                                        const UploadedScene& scene,
+                                                        const MomentSettings& settings) {
+  PhaseSeries series = make_phase_series(scene.problem(), settings.degree, settings.tail);
+  Grid grid = moment_grid<float>(scene.problem(), settings.altitudes, settings.suns);
+  auto tables = std::make_shared<MomentTables>(tracer.device, grid, series, settings.degree,
+                                               scene.groups());
+  Solution solution(tracer, scene, settings, series, *tables);
+  solution.trace_rays(rays_);
+  solution.trace_first_order(first_);
+  solution.project(project_, settings.orders == 1);
+  for (int order = 2; order <= settings.orders; ++order) {
+    solution.refine_altitudes(*this);
+    solution.trace_next_order(rows_, next_);
+    solution.project(project_, order == settings.orders);
+  }
+  solution.finish(*this);
+  return tables;
+}
+
+void MomentSolver::refine(PacedWork& work, Tracer& tracer, const UploadedScene& scene,
+                          const vulkan::Buffer& coarse, const vulkan::Buffer& fine, int outer,
+                          const Axis& axis) {
+  std::vector<vulkan::Binding> bindings = scene.bind({coarse, fine});
+  work.run(outer * axis.fine * axis.inner, 1, [&](int first, int end) {
+    RefinePush push{axis, first, end};
+    tracer.commands.dispatch(refine_, moment_constants(scene, 0, false), bindings,
+                             vulkan::bytes_of(push), {vulkan::groups_for(end - first, 64)});
+  });
+}
+
+vulkan::Specialization moment_constants(const UploadedScene& scene, int degree,
+                                        bool particles) {
+  vulkan::Specialization constants = scene.constants();
+  constants[7] = 0;  // PROJECTION
+  constants[9] = 0;  // MANY_SUNS
+  constants.push_back(static_cast<std::uint32_t>(degree));
+  constants.push_back(particles);
+  return constants;
+}
+
+int rounds_of_a_piece(const UploadedScene& scene, int nodes) {
+  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
+  return scene.kinks() + on_a_ray + nodes * (2 + on_a_ray + 4 * scene.density_iterations());
+}
+
+int most_pieces(const UploadedScene& scene) {
+  // Cut at the lowest point and the shadow's two edges; each kink is passed twice by the ray
+  // and twice by its light.
+  return std::min(4 + 4 * scene.kinks(), int{Physics<float>::MOST_PIECES});
+}
+
+void require_rounds(const UploadedScene& scene, int rounds) {
+  if (rounds <= most_loop_iterations) return;
+  throw OverLimit("/atmosphere/constituents", "the tables of all profiles together have " +
+                                                  std::to_string(scene.profile_nodes()) +
+                                                  " nodes, more than a march can follow");
+}
+
+}  // namespace cyanometer

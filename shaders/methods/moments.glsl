@@ -1,0 +1,315 @@
+// All orders of scattering from moments of the light. In a spherically symmetric air under one sun the
+// diffuse radiance at a point depends on its altitude h, the sun's zenith cosine mu_s there, and the
+// direction. A phase function of Legendre degree L sees only the radiance's spherical-harmonic moments
+// up to L, so tables of those over (h, mu_s) hold all that the next order of scattering needs.
+//
+// Local frame at a point: z up, x towards the sun's horizontal projection. mu is the zenith cosine of a
+// direction (of where light comes from), nu its cosine with the sun's axis: the direction from the
+// planet's centre to the sun, which for parallel light is the sun's own. A near sun's light is
+// symmetric about that axis too, so mu_s is always the axis' zenith cosine.
+
+// --- Harmonics ---------------------------------------------------------------------------------------
+
+CONSTANT int MOST_DEGREE = 12;   // of moments
+CONSTANT int MOST_MOMENTS = 91;  // l = 0 to 12, m = 0 to l
+CONSTANT int MOST_TERMS = 25;    // of a series in Legendre polynomials
+
+int moment_index(int l, int m) { return l * (l + 1) / 2 + m; }
+
+// The m-th derivatives of the Legendre polynomials, P_l^(m)(mu): associated Legendre functions without
+// their sin^m [Abramowitz and Stegun 1964, eqs. 8.5.3 and 8.6.6].
+void zenith_polynomials(Real mu, int degree, OUT_ARRAY(Real, p, MOST_MOMENTS)) {
+  UNROLL for (int m = 0; m <= degree; ++m) {
+    p[moment_index(m, m)] = m == 0 ? 1.0 : Real(2 * m - 1) * p[moment_index(max(m - 1, 0), max(m - 1, 0))];
+    UNROLL for (int l = m + 1; l <= degree; ++l) {
+      Real before = l > m + 1 ? p[moment_index(l - 2, m)] : 0.0;
+      p[moment_index(l, m)] =
+          (Real(2 * l - 1) * mu * p[moment_index(l - 1, m)] - Real(l + m - 1) * before) / Real(l - m);
+    }
+  }
+}
+
+// c_m = (sin of the direction's times sin of the axis' zenith angle)^m cos(m azimuth), without
+// trigonometry: Chebyshev's recurrence.
+void azimuth_terms(Real mu, Real mu_s, Real nu, int degree, OUT_ARRAY(Real, c, MOST_DEGREE + 1)) {
+  Real first = nu - mu * mu_s;
+  Real square = (1.0 - mu * mu) * (1.0 - mu_s * mu_s);
+  c[0] = 1.0;
+  UNROLL for (int m = 1; m <= degree; ++m) {
+    c[m] = m == 1 ? first : 2.0 * first * c[m - 1] - square * c[max(m - 2, 0)];
+  }
+}
+
+// What makes the addition theorem P_l(cos of an angle) = 4 pi / (2 l + 1) sum over m of
+// norm_lm P_l^(m)(mu) P_l^(m)(mu') (sin sin')^m cos(m (phi - phi')) true.
+Real harmonic_norm(int l, int m) {
+  Real norm = Real(2 * l + 1) / (4.0 * PI) * (m > 0 ? 2.0 : 1.0);
+  UNROLL for (int i = l - m + 1; i <= l + m; ++i) norm /= Real(i);
+  return norm;
+}
+
+// Legendre polynomials P_0 to P_degree.
+void legendre_polynomials(Real x, int degree, OUT_ARRAY(Real, p, MOST_TERMS)) {
+  p[0] = 1.0;
+  UNROLL for (int l = 1; l <= degree; ++l) {
+    p[l] = l == 1 ? x : (Real(2 * l - 1) * x * p[l - 1] - Real(l - 1) * p[max(l - 2, 0)]) / Real(l);
+  }
+}
+
+// --- Where the tables have their nodes ---------------------------------------------------------------
+
+struct MomentGrid {
+  Real altitude_power;    // h = thickness y^power, y uniform
+  Real sun_shift_km;      // height of the air that carries the light into the shadow
+  Real sun_width;         // of the fine spacing at the shadow's edge, a sine
+  Real reach_sine;        // of the angle behind the edge at which the tables end
+  Real reach_cosine;
+  Real parallax_sine;     // of the planet's radius seen from a near sun; 0 for parallel light
+  Real parallax_cosine;
+  int altitudes;
+  int suns;
+};
+
+Real altitude_of_node(MomentGrid grid, Real node) {
+  return scene.thickness_km * pow(node / Real(grid.altitudes - 1), grid.altitude_power);
+}
+
+Real node_of_altitude(MomentGrid grid, Real h) {
+  Real share = clamp(h / scene.thickness_km, 0.0, 1.0);
+  return Real(grid.altitudes - 1) * pow(share, 1.0 / grid.altitude_power);
+}
+
+Real inverse_sinh(Real x) {
+  Real magnitude = log(abs(x) + sqrt(x * x + 1.0));
+  return x < 0.0 ? -magnitude : magnitude;
+}
+
+// The sine of the angle by which the horizon lies below the horizontal at an altitude.
+Real dip_sine(Real h) { return sqrt(squared_height(h)) / (scene.planet_radius_km + h); }
+Real dip_cosine(Real h) { return scene.planet_radius_km / (scene.planet_radius_km + h); }
+
+// The nodes over the sun's cosine are dense about the edge of the planet's shadow, which lies at the
+// elevation -dip(h): uniform in asinh((mu_s + centre) / width).
+struct SunRange {
+  Real centre;
+  Real low;    // asinh at the lowest and the highest node
+  Real high;
+};
+
+// Next to the axis itself sin^m of its zenith angle leaves no digits to divide by.
+CONSTANT Real MOST_SUN_COSINE = 0.995;
+
+SunRange sun_range(MomentGrid grid, Real h) {
+  SunRange range;
+  Real shifted = h + grid.sun_shift_km;
+  range.centre = dip_sine(shifted) * grid.parallax_cosine - dip_cosine(shifted) * grid.parallax_sine;
+  Real sine = dip_sine(h);
+  Real cosine = dip_cosine(h);
+  bool night_has_no_end = cosine * grid.reach_cosine - sine * grid.reach_sine <= 0.0;
+  Real lowest = -(sine * grid.reach_cosine + cosine * grid.reach_sine);
+  if (night_has_no_end) lowest = -1.0;
+  lowest = max(lowest, -MOST_SUN_COSINE);
+  range.low = inverse_sinh((lowest + range.centre) / grid.sun_width);
+  range.high = inverse_sinh((MOST_SUN_COSINE + range.centre) / grid.sun_width);
+  return range;
+}
+
+Real sun_of_node(MomentGrid grid, SunRange range, Real node) {
+  Real u = range.low + (range.high - range.low) * node / Real(grid.suns - 1);
+  Real growth = exp(u);
+  return clamp(0.5 * (growth - 1.0 / growth) * grid.sun_width - range.centre, -1.0, 1.0);
+}
+
+Real node_of_sun(MomentGrid grid, SunRange range, Real mu_s) {
+  Real u = inverse_sinh((mu_s + range.centre) / grid.sun_width);
+  return Real(grid.suns - 1) * max((u - range.low) / (range.high - range.low), 0.0);
+}
+
+// Four neighbouring nodes and their weights: Lagrange's cubic, one-sided at the ends.
+struct CubicTaps {
+  int first;
+  Vec4 weights;
+};
+
+CubicTaps cubic_taps(Real node, int nodes) {
+  CubicTaps taps;
+  taps.first = clamp(int(floor(node)) - 1, 0, nodes - 4);
+  Real t = node - Real(taps.first);
+  Real t1 = t - 1.0;
+  Real t2 = t - 2.0;
+  Real t3 = t - 3.0;
+  taps.weights = Vec4(-t1 * t2 * t3 / 6.0, 0.5 * t * t2 * t3, -0.5 * t * t1 * t3, t * t1 * t2 / 6.0);
+  return taps;
+}
+
+Vec4 cubic_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
+  return value[0] * taps.weights.x + value[1] * taps.weights.y + value[2] * taps.weights.z +
+         value[3] * taps.weights.w;
+}
+
+// The same, kept from overshooting where the values fall off a cliff.
+Vec4 limited_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
+  Vec4 low = min(min(value[0], value[1]), min(value[2], value[3]));
+  Vec4 high = max(max(value[0], value[1]), max(value[2], value[3]));
+  Vec4 margin = 0.1 * (high - low);
+  return clamp(cubic_sum(value, taps), low - margin, high + margin);
+}
+
+// --- Directions ---------------------------------------------------------------------------------------
+
+// Zenith cosines are split at the local horizon, where radiance jumps, and gathered there.
+struct ZenithNode {
+  Real mu;
+  Real weight;  // d mu
+};
+
+ZenithNode zenith_node(Real h, bool down, Real x, Real weight) {
+  ZenithNode node;
+  Real horizon = -dip_sine(h);
+  Real span = down ? -1.0 - horizon : 1.0 - horizon;
+  node.mu = horizon + span * x * x;
+  node.weight = abs(span) * 2.0 * x * weight;
+  return node;
+}
+
+// --- Rays -------------------------------------------------------------------------------------------
+
+// A ray is cut into segments that are equal in the cube root of the distance from its lowest point,
+// where the air is densest.
+struct Cuts {
+  Real lowest_km;    // distance of the lowest point from the start
+  Real from;         // cube roots of the signed distances of start and end from there
+  Real to;
+};
+
+Real cube_root(Real x) { return x <= 0.0 ? 0.0 : pow(x, 1.0 / 3.0); }
+Real signed_cube_root(Real x) { return x < 0.0 ? -cube_root(-x) : cube_root(x); }
+
+Cuts cuts_of(Real h, Real mu, Real length_km) {
+  Cuts cuts;
+  cuts.lowest_km = clamp(-(scene.planet_radius_km + h) * mu, 0.0, length_km);
+  cuts.from = -cube_root(cuts.lowest_km);
+  cuts.to = cube_root(length_km - cuts.lowest_km);
+  return cuts;
+}
+
+// Zenith cosine of a ray's direction after the distance t, at the altitude `altitude`.
+Real mu_after(Real h, Real mu, Real t, Real altitude) {
+  return clamp(((scene.planet_radius_km + h) * mu + t) / (scene.planet_radius_km + altitude), -1.0, 1.0);
+}
+
+// Zenith cosine of the axis after the distance t along a ray with the cosine nu to it.
+Real axis_after(Real h, Real mu_s, Real nu, Real t, Real altitude) {
+  return clamp(((scene.planet_radius_km + h) * mu_s + t * nu) / (scene.planet_radius_km + altitude), -1.0,
+               1.0);
+}
+
+// A node of a Gauss rule that is even in the cube root, at the share x of the way.
+struct RayNode {
+  Real t_km;      // from the start
+  Real width_km;  // that it stands for
+};
+
+RayNode ray_node(Cuts cuts, Real x, Real weight) {
+  Real span = cuts.to - cuts.from;
+  Real root = cuts.from + span * x;
+  RayNode node;
+  node.t_km = max(cuts.lowest_km + root * root * root, 0.0);
+  node.width_km = 3.0 * root * root * span * weight;
+  return node;
+}
+
+// --- Tables -------------------------------------------------------------------------------------------
+// Kept are the logarithm of the lowest moment, the mean radiance times the normalisation, which changes
+// by decades through twilight, and the ratios of all others to it, which don't.
+
+CONSTANT Real DARKEST = 1e-16;  // per unit irradiance; what is less counts as this
+
+Vec4 moment_logarithm(Vec4 moment) { return log(max(moment, Vec4(DARKEST))); }
+
+Vec4 moment_ratio(Vec4 moment, Vec4 lowest) {
+  return Vec4(lowest.x > DARKEST ? moment.x / lowest.x : 0.0,
+              lowest.y > DARKEST ? moment.y / lowest.y : 0.0,
+              lowest.z > DARKEST ? moment.z / lowest.z : 0.0,
+              lowest.w > DARKEST ? moment.w / lowest.w : 0.0);
+}
+
+// What all orders after one add, each being the last times `ratio`.
+Vec4 geometric_tail(Vec4 before, Vec4 last) {
+  Vec4 ratio = clamp(last / max(before, Vec4(DARKEST)), 0.0, 0.98);
+  return ratio / (1.0 - ratio);
+}
+
+// --- The sky of a camera --------------------------------------------------------------------------------
+// What is scattered more than once is smooth in direction: a table over elevation, dense about the horizon,
+// and azimuth from the sun's axis, one for rays that meet the ground and one for those that don't.
+
+// Sines of half the angles to the zenith and to the nadir, both precise for directions near either.
+Vec2 half_sines(Real mu, Real sine) {
+  Real up = sqrt(max(0.5 * (1.0 - mu), 0.0));
+  Real down = sqrt(max(0.5 * (1.0 + mu), 0.0));
+  return mu < 0.0 ? Vec2(up, 0.5 * sine / up) : Vec2(0.5 * sine / down, down);
+}
+
+Vec2 horizon_half_sines() {
+  Real h = scene.camera_altitude_km;
+  return half_sines(-dip_sine(h), dip_cosine(h));
+}
+
+// Half sines at the edge of the air, for a camera above it.
+Vec2 limb_half_sines() {
+  Real sine = (scene.planet_radius_km + scene.thickness_km) /
+              (scene.planet_radius_km + scene.camera_altitude_km);
+  return half_sines(-sqrt(max(1.0 - sine * sine, 0.0)), sine);
+}
+
+// From 0 at the horizon to 1 at the nadir, the zenith, or the edge of the air.
+Real elevation_share(Vec3 direction, bool ground) {
+  Vec2 half_sine = half_sines(direction.z, length(Vec2(direction.x, direction.y)));
+  Vec2 horizon = horizon_half_sines();
+  Real square = 1.0 - half_sine.x / horizon.x;
+  if (ground) square = 1.0 - half_sine.y / horizon.y;
+  if (!ground && scene.camera_altitude_km > scene.thickness_km) {
+    square = (half_sine.y - horizon.y) / (limb_half_sines().y - horizon.y);
+  }
+  return sqrt(clamp(square, 0.0, 1.0));
+}
+
+// The direction with an elevation's share and an azimuth from `forward`, a horizontal unit vector.
+Vec3 direction_of_share(Real share, bool ground, Real azimuth, Vec2 forward) {
+  Vec2 horizon = horizon_half_sines();
+  Real up = horizon.x * (1.0 - share * share);
+  Real down = sqrt(max(1.0 - up * up, 0.0));
+  bool by_down = ground || scene.camera_altitude_km > scene.thickness_km;
+  if (by_down) {
+    down = ground ? horizon.y * (1.0 - share * share)
+                  : horizon.y + (limb_half_sines().y - horizon.y) * share * share;
+    up = sqrt(max(1.0 - down * down, 0.0));
+  }
+  Real sine = 2.0 * up * down;
+  Real mu = by_down ? 2.0 * down * down - 1.0 : 1.0 - 2.0 * up * up;
+  Vec2 right = Vec2(-forward.y, forward.x);
+  Vec2 horizontal = (forward * cos(azimuth) + right * sin(azimuth)) * sine;
+  return Vec3(horizontal.x, horizontal.y, mu);
+}
+
+// The horizontal direction of the sun's axis; any where that is vertical.
+Vec2 axis_forward(Vec3 axis) {
+  Vec2 horizontal = Vec2(axis.x, axis.y);
+  Real sine = length(horizontal);
+  return sine > 1e-6 ? horizontal / sine : Vec2(1.0, 0.0);
+}
+
+// 0 to pi.
+Real azimuth_from(Vec2 forward, Vec3 direction) {
+  Real along = forward.x * direction.x + forward.y * direction.y;
+  Real across = abs(forward.x * direction.y - forward.y * direction.x);
+  return across + abs(along) > 0.0 ? atan(across, along) : 0.0;
+}
+
+// Unit, from the planet's centre to the sun.
+Vec3 sun_axis() {
+  Vec3 position = Vec3(scene.sun_position.x, scene.sun_position.y, scene.sun_position.z);
+  Vec3 direction = Vec3(scene.sun_direction.x, scene.sun_direction.y, scene.sun_direction.z);
+  return NEAR_SUN ? position / scene.sun_distance_km : direction;
+}

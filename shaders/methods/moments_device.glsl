@@ -1,0 +1,93 @@
+// What the kernels that fill the moment tables have in common: constants, buffers, and where things
+// lie in them. Groups of wavelengths are innermost everywhere.
+#include "device.glsl"
+
+layout(constant_id = 10) const int DEGREE = 4;           // of the moments, L
+layout(constant_id = 11) const bool PARTICLES = true;    // Rayleigh's function has no odd terms
+const int TERMS = 2 * DEGREE + 3;                        // of a particle's phase in order one
+const int SLOTS = (DEGREE + 1) * (DEGREE + 2) / 2 + 1;   // the last one is the aureole's
+const int AUREOLE = SLOTS - 1;
+const int ROW_SLOTS = DEGREE + 2;                        // of a row, and of a ray's light
+
+#include "methods/moments.glsl"
+
+// In fours of wavelengths: coefficients (2 l + 1) / (4 pi) chi_l of each constituent's phase, l below
+// TERMS, damped beyond L; then for each constituent f, the share of its forward peak.
+layout(std430, binding = OWN) restrict readonly buffer PhaseSeriesBuffer { Vec4 phase_series[]; };
+layout(std430, binding = OWN + 1) restrict buffer RayBuffer { Vec4 ray_data[]; };
+layout(std430, binding = OWN + 2) restrict buffer LightBuffer { Vec4 light[]; };
+layout(std430, binding = OWN + 3) restrict buffer MomentBuffer { Vec4 moments[]; };
+layout(std430, binding = OWN + 4) restrict buffer RowBuffer { Vec4 rows[]; };
+
+layout(push_constant) uniform Push {
+  MomentGrid grid;
+  int fine_altitudes;  // of the table that rays read
+  int up, down;        // directions above and below the horizon
+  int azimuths;        // in half a turn
+  int steps;           // nodes of a ray
+  int first_steps;     // of order one, on each lit part
+  int first, end;      // invocations of this dispatch
+  int first_azimuth, end_azimuth;  // of order one in this dispatch
+  int first_altitude;              // of the rows there are now
+  int last;            // whether this is the last order: the sum becomes what is read
+  int tail;            // whether all orders after it are added
+} push;
+
+#define RAYS (push.up + push.down)
+
+#define series(c, l, group) phase_series[((c) * TERMS + (l)) * GROUPS + (group)]
+#define peak(c, group) phase_series[(MEDIA * TERMS + (c)) * GROUPS + (group)]
+#define VIEW_SHARE(c) phase_series[MEDIA * (TERMS + 1) * GROUPS + (c)].x
+
+// Altitude nodes i, rays j, their nodes k: position, where the sun's nodes lie there, then for l = 0 to L
+// what a moment contributes; and for the ray what the ground at its end contributes.
+const int NODE_SIZE = 2 + (DEGREE + 1) * GROUPS;
+int node_at(int i, int j, int k) {
+  return ((i * RAYS + j) * push.steps + k) * NODE_SIZE;
+}
+int ground_at(int i, int j) {
+  return push.grid.altitudes * RAYS * push.steps * NODE_SIZE + (i * RAYS + j) * GROUPS;
+}
+
+// Light of a ray under the sun s: its azimuthal terms m = 0 to L, then its aureole.
+int light_at(int i, int j, int s) {
+  return ((i * RAYS + j) * push.grid.suns + s) * ROW_SLOTS * GROUPS;
+}
+
+// Tables: of one order, the same with more altitudes, the sum, and all of it ready to be read. Behind the
+// moments of each lies the ground's diffuse irradiance by sun.
+int table_size(int altitudes) { return (altitudes * SLOTS + 1) * push.grid.suns * GROUPS; }
+const int ORDER = 0;
+int sum_table() { return table_size(push.grid.altitudes); }
+int fine_table() { return 2 * table_size(push.grid.altitudes); }
+int moment_at(int i, int s, int slot) { return ((i * push.grid.suns + s) * SLOTS + slot) * GROUPS; }
+int irradiance_at(int altitudes, int s) { return altitudes * push.grid.suns * SLOTS * GROUPS + s * GROUPS; }
+
+// What a node k of a ray sees under the sun s: azimuthal terms of its source over the lowest moment,
+// and that moment's logarithm.
+int row_at(int i, int j, int k, int s) {
+  return ((((i - push.first_altitude) * RAYS + j) * push.steps + k) * push.grid.suns + s) * ROW_SLOTS * GROUPS;
+}
+
+struct TableRay {
+  Real altitude_km;
+  Real mu;
+  Real weight;      // d mu
+  bool down;
+  Real length_km;
+};
+
+TableRay table_ray(int i, int j) {
+  TableRay ray;
+  ray.down = j >= push.up;
+  Vec2 rule = ray.down ? gauss_node(push.down, j - push.up) : gauss_node(push.up, j);
+  ray.altitude_km = altitude_of_node(push.grid, Real(i));
+  ZenithNode node = zenith_node(ray.altitude_km, ray.down, rule.x, rule.y);
+  ray.mu = node.mu;
+  ray.weight = node.weight;
+  ray.length_km = ray.down ? distance_to_ground(ray.altitude_km, ray.mu)
+                           : distance_to_top(ray.altitude_km, ray.mu);
+  return ray;
+}
+
+Real table_azimuth(int a) { return PI * (Real(a) + 0.5) / Real(push.azimuths); }

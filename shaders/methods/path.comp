@@ -1,0 +1,112 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "device.glsl"
+
+// Segments of each half of a ray that a step of a walk looks at.
+layout(constant_id = 10) const int SEGMENTS = 8;
+// Whether proposals know where the light is.
+layout(constant_id = 11) const bool GUIDED = false;
+
+layout(std430, binding = OWN) restrict readonly buffer GuideBuffer { Real path_guide[]; };
+// By lane, between two dispatches: direction and altitude, sun and strength, then the throughput of every
+// group of wavelengths.
+layout(std430, binding = OWN + 1) restrict buffer WalkBuffer { Vec4 walks[]; };
+// By lane: walks done, vertices of this walk, whether its first one is on the ground.
+layout(std430, binding = OWN + 2) restrict buffer CountBuffer { ivec4 counts[]; };
+// By lane: sums over finished blocks and over the block in progress, each of inscatter and of ground.
+layout(std430, binding = OWN + 3) restrict buffer SumBuffer { Vec4 sums[]; };
+layout(std430, binding = OWN + 4) restrict buffer UnfinishedBuffer { uint unfinished; };
+
+#include "methods/path.glsl"
+
+layout(push_constant) uniform Push {
+  int first_ray;      // of the tile, in the frame
+  int rays_in_tile;
+  int slices;         // of each ray's walks, a lane for each
+  int walks_of_ray;
+  int orders;         // -1 all
+  int steps;          // of this dispatch
+  uint seed;
+  uint fresh;         // 1: nothing has been done yet
+} push;
+
+// Float sums of many walks keep their digits when they are summed by blocks.
+const int BLOCK = 512;
+
+void main() {
+  int lane = int(gl_GlobalInvocationID.x);
+  int lanes = push.rays_in_tile * push.slices;
+  if (lane >= lanes) return;
+  load_scene();
+  load_media();
+  bool fresh = push.fresh != 0u;
+  int slice = lane % push.slices;
+  int ray = push.first_ray + lane / push.slices;
+  PixelRay pixel = pixel_ray(ray);
+  Path path = path_from_camera(pixel.direction);
+  int walks_of_lane =
+      pixel.inside && meets_planet(path)
+          ? (push.walks_of_ray - slice + push.slices - 1) / push.slices
+          : 0;
+
+  Walk walk;
+  Vec4 throughput[GROUPS];
+  Vec4 sky[GROUPS];
+  Vec4 ground[GROUPS];
+  ivec4 count = fresh ? ivec4(0) : counts[lane];
+  walk.direction = walks[lane].xyz;
+  walk.altitude_km = walks[lane].w;
+  walk.sun = walks[lanes + lane].xyz;
+  walk.strength = walks[lanes + lane].w;
+  walk.vertices = count.y;
+  bool ground_first = count.z != 0;
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    throughput[g] = walks[(2 + g) * lanes + lane];
+    if (fresh) {
+      sums[g * lanes + lane] = Vec4(0.0);
+      sums[(GROUPS + g) * lanes + lane] = Vec4(0.0);
+    }
+    sky[g] = fresh ? Vec4(0.0) : sums[(2 * GROUPS + g) * lanes + lane];
+    ground[g] = fresh ? Vec4(0.0) : sums[(3 * GROUPS + g) * lanes + lane];
+  }
+
+  Stream stream;
+  stream.ray = uint(ray);
+  stream.seed = push.seed;
+  for (int i = 0; i < push.steps; ++i) {
+    if (count.x == walks_of_lane) break;
+    stream.path = uint(count.x * push.slices + slice);
+    if (walk.vertices == 0) walk = start_walk(path, stream, throughput);
+    Vec4 radiance[GROUPS];
+    UNROLL for (int g = 0; g < GROUPS; ++g) radiance[g] = Vec4(0.0);
+    bool goes_on = step_walk(walk, stream, push.orders, throughput, radiance, ground_first);
+    UNROLL for (int g = 0; g < GROUPS; ++g) {
+      if (ground_first) {
+        ground[g] += radiance[g];
+      } else {
+        sky[g] += radiance[g];
+      }
+    }
+    if (goes_on) continue;
+    walk.vertices = 0;
+    count.x += 1;
+    if (count.x % BLOCK == 0 || count.x == walks_of_lane) {
+      UNROLL for (int g = 0; g < GROUPS; ++g) {
+        sums[g * lanes + lane] += sky[g];
+        sums[(GROUPS + g) * lanes + lane] += ground[g];
+        sky[g] = Vec4(0.0);
+        ground[g] = Vec4(0.0);
+      }
+    }
+  }
+
+  if (count.x < walks_of_lane) atomicOr(unfinished, 1u);
+  walks[lane] = Vec4(walk.direction, walk.altitude_km);
+  walks[lanes + lane] = Vec4(walk.sun, walk.strength);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    walks[(2 + g) * lanes + lane] = throughput[g];
+    sums[(2 * GROUPS + g) * lanes + lane] = sky[g];
+    sums[(3 * GROUPS + g) * lanes + lane] = ground[g];
+  }
+  counts[lane] = ivec4(count.x, walk.vertices, ground_first ? 1 : 0, 0);
+}

@@ -1,0 +1,73 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "device.glsl"
+
+// Adds the mean of all walks to the first order, and finds the standard error of their sum.
+layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(std430, binding = OWN + 1) restrict readonly buffer SumBuffer { Vec4 sums[]; };
+// Inscatter and ground of the first order by half as many nodes.
+layout(std430, binding = OWN + 2) restrict readonly buffer CoarseBuffer { Vec4 coarse[]; };
+
+layout(push_constant) uniform Push {
+  int first_ray;      // of the tile, in the frame
+  int rays_in_tile;
+  int slices;
+  int walks_of_ray;
+} push;
+
+// Sum of the walks of one slice.
+Vec4 slice_sum(int i, int slice, int g) {
+  int lane = i * push.slices + slice;
+  int lanes = push.rays_in_tile * push.slices;
+  return sums[g * lanes + lane] + sums[(GROUPS + g) * lanes + lane];
+}
+
+// Squared standard error of the mean of all walks, from the slices, whose sums are independent. A few
+// heavy walks that most slices have not met make such an estimate too small: where one slice holds more
+// of the squares than one of so many normal ones would in a thousand cases, the excess counts four times:
+// the error is doubled where a single slice is all there is.
+Vec4 variance_of_mean(int i, int g, Vec4 mean) {
+  // One walk alone says nothing of its error but that it is about its size.
+  if (push.slices == 1) return mean * mean;
+  Vec4 squares = Vec4(0.0);
+  Vec4 largest = Vec4(0.0);
+  for (int s = 0; s < push.slices; ++s) {
+    Real walks = Real((push.walks_of_ray - s + push.slices - 1) / push.slices);
+    Vec4 deviation = slice_sum(i, s, g) - mean * walks;
+    squares += deviation * deviation;
+    largest = max(largest, deviation * deviation);
+  }
+  Real slices = Real(push.slices);
+  Vec4 expected = squares * min((2.0 * log(slices) + 8.0) / slices, 1.0);
+  squares += 3.0 * max(largest - expected, Vec4(0.0));
+  return squares * (slices / (slices - 1.0)) /
+         (Real(push.walks_of_ray) * Real(push.walks_of_ray));
+}
+
+void main() {
+  int i = int(gl_GlobalInvocationID.x);
+  int n = push.rays_in_tile;
+  if (i >= n) return;
+  int lanes = n * push.slices;
+  Real walks = Real(max(push.walks_of_ray, 1));
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    int inscatter_at = (INSCATTER * GROUPS + g) * n + i;
+    int ground_at = (GROUND * GROUPS + g) * n + i;
+    // Gauss rules gain digits with every node: a tenth of what half of them miss is a bound.
+    Vec4 quadrature = 0.1 * abs(tile[inscatter_at] + tile[ground_at] - coarse[inscatter_at] -
+                                coarse[ground_at]);
+    Vec4 variance = quadrature * quadrature;
+    if (push.walks_of_ray > 0) {
+      Vec4 sky = Vec4(0.0);
+      Vec4 ground = Vec4(0.0);
+      for (int s = 0; s < push.slices; ++s) {
+        sky += sums[g * lanes + i * push.slices + s];
+        ground += sums[(GROUPS + g) * lanes + i * push.slices + s];
+      }
+      variance += variance_of_mean(i, g, (sky + ground) / walks);
+      tile[inscatter_at] += sky / walks;
+      tile[ground_at] += ground / walks;
+    }
+    tile[(STANDARD_ERROR * GROUPS + g) * n + i] = sqrt(variance);
+  }
+}
