@@ -21,7 +21,7 @@ inline MethodOptions with_options(const MethodOptions& changed) {
 inline MethodOptions small_tables(MethodOptions changed = {}) {
   MethodOptions options{{"altitudes", 8}, {"zeniths", 10},       {"suns", 16},
                         {"azimuths", 7},  {"source_zeniths", 9}, {"source_azimuths", 5},
-                        {"samples", 16},  {"refinement", 3}};
+                        {"samples", 16},  {"refinement", 2}};
   for (const auto& [name, value] : changed) options[name] = value;
   return with_options(options);
 }

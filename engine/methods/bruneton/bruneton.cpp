@@ -146,14 +146,14 @@ MethodDescription describe() {
            nodes("suns", "Sun nodes",
                  "Elevations of the sun, from the zenith to where it lights no air.", 4, 256,
                  32),
-           nodes("azimuths", "Azimuth nodes", "From the sun to the opposite.", 3, 65, 9),
+           nodes("azimuths", "Azimuth nodes", "From the sun to the opposite.", 3, 65, 13),
            nodes("source_zeniths", "Source zeniths",
                  "Directions, even in angle, of what the air scatters.", 3, 129, 13),
            nodes("source_azimuths", "Source azimuths", "Of what the air scatters.", 3, 65, 7),
            nodes("refinement", "Refinement",
-                 "Tables are interpolated by cubics, over altitude and sun, on a grid so many "
-                 "times finer, before they are read linearly; 1 leaves that out.",
-                 1, 8, 4),
+                 "The source is interpolated by cubics on a grid so many times finer in each "
+                 "coordinate, before it is read linearly; 1 leaves that out.",
+                 1, 6, 2),
            nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 24),
            nodes("view_nodes", "View nodes",
                  "Gauss nodes on each smooth piece of a path in the first order.", 1,

@@ -182,17 +182,17 @@ Rays rays_from_space(const Problem& problem, const Setup& setup) {
   P::ScatteringGrid grid = grid_of(problem, setup);
   refine_directions(grid);
   grid.altitudes = 1;
-  grid.suns = (grid.suns - 1) * setup.refinement + 1;
+  grid.suns = 2 * grid.suns;
   grid.highest_mu = 0;
   return rays_at(p, grid, {problem.thickness_km}, all_suns(p, grid), degree_of(setup));
 }
 
 ScatteringGrid source_grid(const Problem& problem, const Setup& setup) {
   P::ScatteringGrid grid = grid_of(problem, setup);
-  grid.altitudes = (grid.altitudes - 1) * setup.refinement + 1;
-  grid.suns = (grid.suns - 1) * setup.refinement + 1;
-  grid.zeniths = setup.source_zeniths;
-  grid.azimuths = setup.source_azimuths;
+  grid.altitudes = setup.refined(grid.altitudes);
+  grid.suns = setup.refined(grid.suns);
+  grid.zeniths = setup.refined(setup.source_zeniths);
+  grid.azimuths = setup.refined(setup.source_azimuths);
   return in_float(grid);
 }
 

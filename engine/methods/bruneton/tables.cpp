@@ -33,13 +33,13 @@ struct GatherPush {
   std::int32_t first, end, cells, with_ground, encode;
 };
 struct SlicePush {
-  std::int32_t first, end, altitude;
+  std::int32_t first, end, altitude, out_zeniths, out_azimuths;
 };
 struct RangePush {
   std::int32_t first, end;
 };
 struct RefinePush {
-  std::int32_t first, end, directions, altitudes, factor;
+  std::int32_t first, end, rows, columns, inner, factor;
 };
 struct OrderPush {
   std::int32_t first, end, directions, first_order, last_order, tail;
@@ -246,18 +246,20 @@ void TableMaker::find_first_order(const Work& work, const UploadedRays& rays,
 
 void TableMaker::find_source(const Work& work, const UploadedRays& rays,
                              const vulkan::Buffer& radiance, const vulkan::Buffer& to) {
+  const Setup& setup = work.setup;
   int incoming = rays.rays.directions();
-  int outgoing = work.setup.source_zeniths * work.setup.source_azimuths;
+  int outgoing = setup.source_zeniths * setup.source_azimuths;
   int groups = work.scene.groups();
   vulkan::Buffer shares =
       table_buffer(work.tracer.device, std::size_t{1} * incoming * outgoing * groups,
                    "source_zeniths", "the redistribution between directions");
   for (int altitude = 0; altitude < rays.rays.grid.altitudes; ++altitude) {
     work.fill(redistribute_, rays, {shares}, std::int64_t{1} * incoming * outgoing,
-              for_redistribution(work.scene.media()), SlicePush{0, 0, altitude});
+              for_redistribution(work.scene.media()),
+              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
     work.fill(source_, rays, {shares, radiance, to},
               std::int64_t{1} * outgoing * rays.rays.grid.suns, for_source(incoming, groups),
-              SlicePush{0, 0, altitude});
+              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
   }
 }
 
@@ -270,26 +272,36 @@ void TableMaker::find_irradiance(const Work& work, const UploadedRays& rays,
 /// A quantity over altitudes, suns and directions by order, summed over orders, and what of it
 /// is interpolated.
 struct TableMaker::OrderSum {
-  OrderSum(vulkan::Device& device, const vulkan::Buffer& result_, int groups_, int altitudes_,
-           int suns, int directions_)
+  /// Nodes, of each group of wavelengths.
+  struct Size {
+    int groups, altitudes, suns, zeniths, azimuths;
+
+    int directions() const { return zeniths * azimuths; }
+    std::size_t bytes() const {
+      return vec4_bytes * groups * altitudes * suns * zeniths * azimuths;
+    }
+  };
+  OrderSum(vulkan::Device& device, const vulkan::Buffer& result_, const Size& size_,
+           const Setup& setup)
       : result(result_),
-        groups(groups_),
-        altitudes(altitudes_),
-        directions(directions_),
-        size(vec4_bytes * groups * altitudes * suns * directions),
-        orders{vulkan::Buffer{device, size, vulkan::Memory::device},
-               vulkan::Buffer{device, size, vulkan::Memory::device}},
-        sum(device, size, vulkan::Memory::device),
-        encoded(device, size, vulkan::Memory::device) {}
+        size(size_),
+        orders{vulkan::Buffer{device, size.bytes(), vulkan::Memory::device},
+               vulkan::Buffer{device, size.bytes(), vulkan::Memory::device}},
+        sum(device, size.bytes(), vulkan::Memory::device),
+        encoded(device, size.bytes(), vulkan::Memory::device),
+        in_directions(device,
+                      size.bytes() / size.directions() * setup.refined(size.zeniths) *
+                          setup.refined(size.azimuths),
+                      vulkan::Memory::device) {}
 
   const vulkan::Buffer& now() const { return orders[count % 2]; }
   const vulkan::Buffer& previous() const { return orders[(count + 1) % 2]; }
 
   const vulkan::Buffer& result;
-  int groups, altitudes, directions;
-  std::size_t size;
+  Size size;
   std::array<vulkan::Buffer, 2> orders;
   vulkan::Buffer sum, encoded;
+  vulkan::Buffer in_directions;  ///< refined in directions alone
   int count = 0;
 };
 
@@ -301,15 +313,21 @@ struct TableMaker::Orders {
 
 void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum& sum,
                            const Orders& orders) {
+  const OrderSum::Size& size = sum.size;
   int tail = orders.last && sum.count > 0 ? orders.beyond : 0;
   work.fill(order_, rays, {sum.now(), sum.previous(), sum.sum, sum.encoded},
-            std::int64_t{1} * sum.groups * sum.altitudes * sum.directions,
-            2 * rays.rays.grid.suns,
-            OrderPush{0, 0, sum.directions, sum.count == 0, orders.last, tail});
-  work.fill(refine_, rays, {sum.encoded, sum.result},
-            static_cast<std::int64_t>(sum.result.size() / vec4_bytes), 16,
-            RefinePush{0, 0, sum.directions, sum.altitudes, work.setup.refinement});
+            std::int64_t{1} * size.groups * size.altitudes * size.directions(), 2 * size.suns,
+            OrderPush{0, 0, size.directions(), sum.count == 0, orders.last, tail});
   ++sum.count;
+  auto refine = [&](const vulkan::Buffer& from, const vulkan::Buffer& to, int rows, int columns,
+                    int inner) {
+    constexpr int evaluations = 16;
+    work.fill(refine_, rays, {from, to}, static_cast<std::int64_t>(to.size() / vec4_bytes),
+              evaluations, RefinePush{0, 0, rows, columns, inner, work.setup.refinement});
+  };
+  refine(sum.encoded, sum.in_directions, size.zeniths, size.azimuths, 1);
+  refine(sum.in_directions, sum.result, size.altitudes, size.suns,
+         work.setup.refined(size.zeniths) * work.setup.refined(size.azimuths));
 }
 
 void TableMaker::gather(const Work& work, const UploadedRays& rays, const SourceTables& from,
@@ -329,10 +347,12 @@ std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
   const ScatteringGrid grid = source_grid(problem, work.setup);
   vulkan::Buffer radiance = scattering_buffer(device, rays.rays, groups);
   auto tables = std::make_shared<SourceTables>(device, grid, groups);
-  const ScatteringGrid& coarse = rays.rays.grid;
-  OrderSum source(device, tables->source, groups, coarse.altitudes, coarse.suns,
-                  grid.zeniths * grid.azimuths);
-  OrderSum irradiance(device, tables->irradiance, groups, 1, coarse.suns, 1);
+  const Setup& setup = work.setup;
+  OrderSum source(
+      device, tables->source,
+      {groups, setup.altitudes, setup.suns, setup.source_zeniths, setup.source_azimuths},
+      setup);
+  OrderSum irradiance(device, tables->irradiance, {groups, 1, setup.suns, 1, 1}, setup);
 
   int last = orders_to_compute(problem, work.setup);
   int asked = problem.scattering_orders;

@@ -14,6 +14,8 @@ layout(push_constant) uniform Push {
   int first_pair;
   int end_pair;
   int altitude;
+  int out_zeniths;  // directions of the source, as computed
+  int out_azimuths;
 } push;
 
 Vec3 towards(Real mu, Real azimuth) {
@@ -38,10 +40,10 @@ void main() {
   if (pair >= push.end_pair) return;
   load_scene();
   load_media();
-  int outgoing = pair % (source.zeniths * source.azimuths);
-  int incoming = pair / (source.zeniths * source.azimuths);
-  Real out_zenith = PI * Real(outgoing / source.azimuths) / Real(source.zeniths - 1);
-  Real out_azimuth = PI * Real(outgoing % source.azimuths) / Real(source.azimuths - 1);
+  int outgoing = pair % (push.out_zeniths * push.out_azimuths);
+  int incoming = pair / (push.out_zeniths * push.out_azimuths);
+  Real out_zenith = PI * Real(outgoing / push.out_azimuths) / Real(push.out_zeniths - 1);
+  Real out_azimuth = PI * Real(outgoing % push.out_azimuths) / Real(push.out_azimuths - 1);
   int zenith = incoming / grid.azimuths;
   int k = incoming % grid.azimuths;
   Real mu = node_cosine(push.altitude, zenith);
@@ -57,7 +59,7 @@ void main() {
   UNROLL for (int g = 0; g < GROUPS; ++g) sum[g] = Vec4(0.0);
   add_phases(towards(mu, in_azimuth), to, density, sum);
   add_phases(towards(mu, -in_azimuth), to, density, sum);
-  int pairs = grid.zeniths * grid.azimuths * source.zeniths * source.azimuths;
+  int pairs = grid.zeniths * grid.azimuths * push.out_zeniths * push.out_azimuths;
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 coefficient = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) {

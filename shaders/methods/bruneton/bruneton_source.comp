@@ -20,12 +20,14 @@ layout(push_constant) uniform Push {
   int first_item;
   int end_item;
   int altitude;
+  int out_zeniths;  // directions of the source, as computed
+  int out_azimuths;
 } push;
 
 void main() {
   int item = push.first_item + int(gl_GlobalInvocationID.x);
   if (item >= push.end_item) return;
-  int outgoing = source.zeniths * source.azimuths;
+  int outgoing = push.out_zeniths * push.out_azimuths;
   int incoming = grid.zeniths * grid.azimuths;
   int direction = item % outgoing;
   int place = push.altitude * grid.suns + item / outgoing;
