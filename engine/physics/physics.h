@@ -121,6 +121,7 @@ struct Physics {
 #include "shaders/methods/hillaire/multiple.glsl"
 #include "shaders/methods/hillaire/view.glsl"
 #include "shaders/methods/hillaire/sky_view.glsl"
+#include "shaders/methods/bruneton/grid.glsl"
   // clang-format on
 };
 

@@ -13,20 +13,6 @@ struct Push {
 
 constexpr int most_pieces = Physics<float>::MOST_PIECES;
 
-/// Pieces of a ray whose loops stay below the drivers' limit.
-int pieces_at_once(const UploadedScene& scene, int view_nodes) {
-  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
-  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
-  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
-  if (a_piece > most_loop_iterations) {
-    throw OverLimit("/atmosphere/constituents",
-                    "the tables of all profiles together have " +
-                        std::to_string(scene.profile_nodes()) +
-                        " nodes, more than a march of so many view nodes can follow");
-  }
-  return std::min(most_loop_iterations / a_piece, most_pieces);
-}
-
 class Raymarch final : public Method {
  public:
   explicit Raymarch(vulkan::Device& device)
@@ -50,7 +36,7 @@ class Raymarch final : public Method {
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     int view_nodes = static_cast<int>(options.at("view_nodes"));
-    int pieces = pieces_at_once(scene, view_nodes);
+    int pieces = march_pieces_at_once(scene, view_nodes);
     std::vector<vulkan::Binding> bindings =
         scene.bind({tile.values, progress_for(tracer.device, tile.rays)});
     for (int sun = 0; sun < scene.disc_points(); ++sun) {
@@ -65,11 +51,8 @@ class Raymarch final : public Method {
   }
 
  private:
-  /// Evaluations of a ray under one sun.
   static std::int64_t cost(std::int64_t media, const MethodOptions& options) {
-    constexpr int usual_pieces = 4, a_node = 12;
-    return usual_pieces * static_cast<std::int64_t>(options.at("view_nodes")) * a_node *
-           std::max<std::int64_t>(media, 1);
+    return march_evaluations(media, static_cast<int>(options.at("view_nodes")));
   }
 
   const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
@@ -85,6 +68,24 @@ class Raymarch final : public Method {
 };
 
 }  // namespace
+
+int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
+  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
+  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
+  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
+  if (a_piece > most_loop_iterations) {
+    throw OverLimit("/atmosphere/constituents",
+                    "the tables of all profiles together have " +
+                        std::to_string(scene.profile_nodes()) +
+                        " nodes, more than a march of so many view nodes can follow");
+  }
+  return std::min(most_loop_iterations / a_piece, most_pieces);
+}
+
+std::int64_t march_evaluations(std::int64_t media, int view_nodes) {
+  constexpr int usual_pieces = 4, a_node = 12;
+  return std::int64_t{usual_pieces} * view_nodes * a_node * std::max<std::int64_t>(media, 1);
+}
 
 const MethodDescription& raymarch_description() {
   static const MethodDescription description{
