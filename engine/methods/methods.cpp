@@ -1,20 +1,18 @@
 // The methods there are.
-#include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
-#include "engine/methods/nishita/nishita.h"
-#include "engine/methods/raymarch/raymarch.h"
+
+#include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/moments/moments.h"
+#include "engine/methods/nishita/nishita.h"
 #include "engine/methods/path/path.h"
+#include "engine/methods/raymarch/raymarch.h"
 
 namespace cyanometer {
 
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
-      nishita_description(),
-      raymarch_description(),
-      hillaire_description(),
-      moments_description(),
-      path_description(),
+      nishita_description(), raymarch_description(), hillaire_description(),
+      moments_description(), path_description(),
   };
   return all;
 }

@@ -78,12 +78,13 @@ struct Physics {
 
   // Of the method `path` alone (engine/methods/path/guide.h).
   int SEGMENTS = 8;
+  bool GUIDED = false;
   std::vector<Real> path_guide;
 
   // Tables, each with its constants.
   int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
   std::vector<Vec4> optical_depths;
-  int MULTIPLE_SUNS = 2, MULTIPLE_ALTITUDES = 2, SKY_AZIMUTHS = 2, SKY_ELEVATIONS = 4;
+  int MULTIPLE_SUNS = 2, MULTIPLE_ALTITUDES = 2, SKY_VIEW_AZIMUTHS = 2, SKY_VIEW_ELEVATIONS = 4;
   std::vector<Vec4> log_multiple, log_irradiance, sky_view;
   std::vector<Real> view_columns;
 

@@ -14,14 +14,60 @@ struct Walk {
   int vertices;     // so far
 };
 
-// What the proposals know of the scene (engine/methods/path/guide.h): a scale height of what scatters,
-// the share of directions that are drawn about the sun, then by constituent its share in these and
-// for tabulated phases the edges of cells in 1 - cos.
+// --- What the proposals know of the scene (engine/methods/path/guide.h) -----------------------------
+//
+// A scale height of what scatters; the share of directions that are drawn about the sun; by constituent
+// its share in these; for tabulated phases the edges of cells in 1 - cos. Where GUIDED, also the light
+// that there is for a walk to find, estimated coarsely for isotropic scattering at one wavelength,
+// by altitude and zenith cosine of the sun: how much scatters at a point, how much arrives there by
+// scattering, and from which directions.
 CONSTANT int PHASE_CELLS = 128;
+CONSTANT int LIGHT_ALTITUDES = 48;   // of the light that scatters at a point
+CONSTANT int LIGHT_SUNS = 128;
+CONSTANT int SKY_ALTITUDES = 12;     // of the light that arrives by scattering
+CONSTANT int SKY_SUNS = 32;
+CONSTANT int SKY_ELEVATIONS = 16;
+CONSTANT int SKY_AZIMUTHS = 6;
+CONSTANT int SKY_CELLS = SKY_ELEVATIONS * SKY_AZIMUTHS;
+
 Real guide_scale_height_km() { return path_guide[0]; }
 Real guide_sun_share() { return path_guide[1]; }
 Real guide_peak_share(int c) { return path_guide[2 + c]; }
 Real phase_cell_edge(int c, int edge) { return path_guide[2 + MEDIA + c * (PHASE_CELLS + 1) + edge]; }
+int light_offset() { return 2 + MEDIA + MEDIA * (PHASE_CELLS + 1); }
+int sky_offset() { return light_offset() + LIGHT_ALTITUDES * LIGHT_SUNS; }
+Real sky_light(int place) { return path_guide[sky_offset() + place]; }
+// Share of the cells before a cell in the sky of a place.
+Real sky_share_before(int place, int cell) {
+  return path_guide[sky_offset() + SKY_ALTITUDES * SKY_SUNS + place * (SKY_CELLS + 1) + cell];
+}
+
+Real sinh_inverse(Real x) {
+  Real y = log(abs(x) + sqrt(x * x + 1.0));
+  return x < 0.0 ? -y : y;
+}
+
+// Coordinates from 0 to 1. Suns are spread about the angle at which the shell's shadow ends.
+Real altitude_coordinate(Real h) { return sqrt(max(h, 0.0) / scene.thickness_km); }
+Real sun_coordinate(Real mu_sun) {
+  Real radius = scene.planet_radius_km + scene.thickness_km;
+  Real dip = sqrt(squared_height(scene.thickness_km)) / radius;
+  Real lowest = sinh_inverse(-4.0);
+  Real highest = sinh_inverse(2.0 / dip + 0.5);
+  return clamp((sinh_inverse(2.0 * mu_sun / dip + 0.5) - lowest) / (highest - lowest), 0.0, 1.0);
+}
+
+int light_place(Real h, Real mu_sun) {
+  int i = clamp(int(altitude_coordinate(h) * Real(LIGHT_ALTITUDES)), 0, LIGHT_ALTITUDES - 1);
+  int j = clamp(int(sun_coordinate(mu_sun) * Real(LIGHT_SUNS)), 0, LIGHT_SUNS - 1);
+  return i * LIGHT_SUNS + j;
+}
+
+int sky_place(Real h, Real mu_sun) {
+  int i = clamp(int(altitude_coordinate(h) * Real(SKY_ALTITUDES)), 0, SKY_ALTITUDES - 1);
+  int j = clamp(int(sun_coordinate(mu_sun) * Real(SKY_SUNS)), 0, SKY_SUNS - 1);
+  return i * SKY_SUNS + j;
+}
 
 // --- Random numbers ----------------------------------------------------------------------------------
 
@@ -93,6 +139,20 @@ Vec3 about_axis(Vec3 axis, Vec3 v) {
 Vec3 deflected(Real deflection, Real turn) {
   Real sine = sqrt(max(deflection * (2.0 - deflection), 0.0));
   return Vec3(sine * cos(2.0 * PI * turn), sine * sin(2.0 * PI * turn), 1.0 - deflection);
+}
+
+SunRay sun_from(Walk walk) {
+  SunRay ray;
+  ray.direction = walk.sun;
+  ray.irradiance = 1.0;
+  ray.distance_km = 0.0;
+  if (NEAR_SUN) {
+    ray.distance_km = length(walk.sun);
+    ray.direction = walk.sun / ray.distance_km;
+    Real ratio = scene.sun_distance_km / ray.distance_km;
+    ray.irradiance = ratio * ratio;
+  }
+  return ray;
 }
 
 // --- How far: a density along the ray ---------------------------------------------------------------
@@ -191,6 +251,18 @@ Real mean_density(int c, Real from_h, Real to_h, Real from, Real to) {
 Real total(Vec4 v) { return v.x + v.y + v.z + v.w; }
 Real smallest(Vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
+// The light that scatters at a point of a leg, at a distance from its lowest point. At the first vertex
+// that of the sun is not wanted: it is the first order.
+Real light_ahead(Walk walk, Leg leg, bool back, Real from_lowest_km, Real h) {
+  SunRay sun = sun_from(walk);
+  Real t = back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
+  Real radius = scene.planet_radius_km + walk.altitude_km;
+  Real mu_sun = (radius * sun.direction.z + t * dot(walk.direction, sun.direction)) /
+                (scene.planet_radius_km + h);
+  if (walk.vertices == 0) return sky_light(sky_place(h, mu_sun));
+  return path_guide[light_offset() + light_place(h, mu_sun)];
+}
+
 // A choice among segments by what they scatter of a walk's light, summed over the wavelengths: for each
 // of these it is the balance heuristic [Veach 1997, section 9.2].
 struct Choice {
@@ -204,7 +276,7 @@ struct Choice {
 // Looks at the segments [first, end) of a leg, or at parts of one of them, and picks one: by mass, or
 // the one that is `wanted` where that is not negative. `light` comes in at the first one and goes out
 // behind the last; `light_there` is that at the chosen one.
-Choice choose_segment(Leg leg, bool parts, Segment whole, int first, int end, Real pick, int wanted,
+Choice choose_segment(Walk walk, Leg leg, bool parts, Segment whole, int first, int end, Real pick, int wanted,
                       INOUT_ARRAY(Vec4, light, GROUPS_SIZE),
                       INOUT_ARRAY(Vec4, light_there, GROUPS_SIZE)) {
   Choice choice;
@@ -268,6 +340,7 @@ Choice choose_segment(Leg leg, bool parts, Segment whole, int first, int end, Re
                     (depth[group] + 0.000001));
       next_yield += total(at_end_light * at_end);
     }
+    if (GUIDED) mass *= light_ahead(walk, leg, segment.back, 0.5 * (begin_km + end_km), 0.5 * (h + next_h));
     choice.all += mass;
     bool by_mass = wanted < 0;
     if (by_mass ? choice.pick * choice.all < mass : i == wanted) {
@@ -333,7 +406,7 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
     light_there[group] = throughput[group];
   }
   Segment none = segment_at(first);
-  Choice choice = choose_segment(leg, false, none, first, end, pick,
+  Choice choice = choose_segment(walk, leg, false, none, first, end, pick,
                                  even ? first + min(int(pick * Real(segments)), segments - 1) : -1,
                                  light, light_there);
   Real ground = 0.0;
@@ -341,6 +414,7 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
     UNROLL for (int group = 0; group < GROUPS; ++group) {
       ground += total(light[group] * ground_albedo(group));
     }
+    if (GUIDED) ground *= light_ahead(walk, leg, true, 0.0, 0.0);
   }
   Real all = choice.all + ground;
   Flight flight;
@@ -351,7 +425,7 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
   flight.density = segments == 0 ? 1.0 : (1.0 - evenly) * ground / all;
   if (flight.ends || flight.ground) return flight;
 
-  Choice part = choose_segment(leg, true, choice.segment, 0, PARTS, u.y,
+  Choice part = choose_segment(walk, leg, true, choice.segment, 0, PARTS, u.y,
                                even ? min(int(u.y * Real(PARTS)), PARTS - 1) : -1, light_there, light);
   Stretch stretch = stretch_of(leg, part.segment.back);
   Real within = clamp(even ? u.z : tilted_point(part.slope, u.z), 0.0, 1.0);
@@ -453,49 +527,85 @@ Real mixed_phase(ARRAY(Real, share, MEDIA_SIZE), ScatteringAngle angle) {
   return density;
 }
 
-// Light comes straight from the sun, in twilight from the sky above the horizon on the sun's side. These
-// directions are proposed beside those that the scatterer favours: without the first, a walk that
-// happens to fly towards the sun would carry the whole forward peak of its next vertex.
+// Light comes straight from the sun, and with a low sun from some parts of the sky only. These directions
+// are proposed beside those that the scatterer favours: without the first, a walk that happens to fly
+// towards the sun would carry the whole forward peak of its next vertex.
 struct Aim {
   Real sun;      // shares of the proposals; the rest follows the scatterer
-  Real horizon;
+  Real sky;
+  int place;     // whose sky
   Vec2 azimuth;  // towards the sun, unit
 };
 
-CONSTANT Real HORIZON_WIDTH = 0.15;   // of the proposal, as the cosine of the zenith angle
-CONSTANT Real HORIZON_FOCUS = 0.5;    // 0 is even in azimuth, 1 the sun's own
+CONSTANT Real SKY_SHARE = 0.6;
 
-Aim aim_at(Vec3 sun, Real sunlight) {
+Aim aim_at(Vec3 sun, Real h, Real sunlight) {
   Aim aim;
   Vec2 horizontal = Vec2(sun.x, sun.y);
   Real sine = length(horizontal);
   aim.azimuth = sine > 0.0 ? horizontal / sine : Vec2(1.0, 0.0);
   aim.sun = guide_sun_share() * sunlight;
-  aim.horizon = sun.z < 0.1 ? 0.35 : 0.0;
+  aim.place = GUIDED ? sky_place(h, sun.z) : 0;
+  aim.sky = GUIDED && sky_light(aim.place) > 0.0 ? SKY_SHARE * (1.0 - aim.sun) : 0.0;
   return aim;
 }
 
-// A Cauchy density in the cosine of the zenith angle, cut to [-1, 1], and a wrapped one in azimuth.
-Vec3 towards_horizon(Aim aim, Vec2 u) {
-  Real steepest = atan(1.0 / HORIZON_WIDTH);
-  Real mu = clamp(HORIZON_WIDTH * tan((2.0 * u.x - 1.0) * steepest), -1.0, 1.0);
-  Real half_turn = (1.0 - HORIZON_FOCUS) / (1.0 + HORIZON_FOCUS) * tan(PI * (u.y - 0.5));
-  Real inverse = 1.0 / (1.0 + half_turn * half_turn);
-  Real cosine = (1.0 - half_turn * half_turn) * inverse;
-  Real sine = 2.0 * half_turn * inverse;
-  Real level = sqrt(max(1.0 - mu * mu, 0.0));
-  return Vec3(level * (aim.azimuth.x * cosine - aim.azimuth.y * sine),
-              level * (aim.azimuth.y * cosine + aim.azimuth.x * sine), mu);
+// Cells of the sky: y = asinh(SKY_BEND mu) / asinh(SKY_BEND) from -1 to 1, and the sine s of half the angle
+// in azimuth from the sun. Within a cell both are even.
+CONSTANT Real SKY_BEND = 10.0;
+Real sky_elevation(Real mu) { return sinh_inverse(SKY_BEND * mu) / sinh_inverse(SKY_BEND); }
+Real sky_cosine(Real y) {
+  Real e = exp(abs(y) * sinh_inverse(SKY_BEND));
+  Real mu = min((e - 1.0 / e) / (2.0 * SKY_BEND), 1.0);
+  return y < 0.0 ? -mu : mu;
 }
 
-Real horizon_density(Aim aim, Vec3 direction) {
+// dy ds over the solid angle, 1/sr; both sides of the sun's azimuth share it.
+Real sky_density(Real mu, Real s) {
+  Real up = SKY_BEND / (sinh_inverse(SKY_BEND) * sqrt(1.0 + SKY_BEND * SKY_BEND * (mu * mu)));
+  Real around = 0.25 * sqrt(max(1.0 - s * s, 0.0));
+  return up * around;
+}
+
+// Towards a point of a cell; u.z tells the sides apart.
+Vec3 sky_direction(Vec2 azimuth, int cell, Vec2 u, bool left) {
+  Real y = 2.0 * (Real(cell / SKY_AZIMUTHS) + u.x) / Real(SKY_ELEVATIONS) - 1.0;
+  Real s = (Real(cell % SKY_AZIMUTHS) + u.y) / Real(SKY_AZIMUTHS);
+  Real mu = sky_cosine(y);
+  Real level = sqrt(max(1.0 - mu * mu, 0.0));
+  Real cosine = 1.0 - 2.0 * s * s;
+  Real sine = 2.0 * s * sqrt(max(1.0 - s * s, 0.0));
+  if (left) sine = -sine;
+  return Vec3(level * (azimuth.x * cosine - azimuth.y * sine),
+              level * (azimuth.y * cosine + azimuth.x * sine), mu);
+}
+
+Vec3 from_sky(Aim aim, Real pick, Real side, Vec2 u) {
+  int low = 0;
+  int high = SKY_CELLS;
+  while (high - low > 1) {
+    int middle = (low + high) / 2;
+    if (sky_share_before(aim.place, middle) <= pick) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return sky_direction(aim.azimuth, low, u, side < 0.5);
+}
+
+// Its density, 1/sr.
+Real from_sky_density(Aim aim, Vec3 direction) {
   Real level = length(Vec2(direction.x, direction.y));
-  Real cosine = level > 0.0 ? (aim.azimuth.x * direction.x + aim.azimuth.y * direction.y) / level : 1.0;
-  Real around = (1.0 - HORIZON_FOCUS * HORIZON_FOCUS) /
-                (2.0 * PI * (1.0 + HORIZON_FOCUS * (HORIZON_FOCUS - 2.0 * cosine)));
-  Real up = HORIZON_WIDTH / (2.0 * atan(1.0 / HORIZON_WIDTH) *
-                             (HORIZON_WIDTH * HORIZON_WIDTH + direction.z * direction.z));
-  return around * up;
+  Real cosine = level > 0.0
+                    ? (aim.azimuth.x * direction.x + aim.azimuth.y * direction.y) / level : 1.0;
+  Real s = sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0));
+  Real y = 0.5 + 0.5 * sky_elevation(direction.z);
+  int row = clamp(int(y * Real(SKY_ELEVATIONS)), 0, SKY_ELEVATIONS - 1);
+  int column = clamp(int(s * Real(SKY_AZIMUTHS)), 0, SKY_AZIMUTHS - 1);
+  int cell = row * SKY_AZIMUTHS + column;
+  Real share = sky_share_before(aim.place, cell + 1) - sky_share_before(aim.place, cell);
+  return share * Real(SKY_CELLS / 2) * sky_density(direction.z, s);
 }
 
 // Of directions drawn about the sun.
@@ -518,8 +628,8 @@ Vec3 choose_direction(Scatterer scatterer, Aim aim, Vec3 sun, ARRAY(Real, share,
     return about_axis(sun, deflected(mixed_deflection(own, u.x / aim.sun, u.y), u.z));
   }
   Real rest = u.x - aim.sun;
-  if (rest < aim.horizon) return towards_horizon(aim, Vec2(u.y, u.z));
-  rest = (rest - aim.horizon) / (1.0 - aim.sun - aim.horizon);
+  if (rest < aim.sky) return from_sky(aim, rest / aim.sky, u.w, Vec2(u.y, u.z));
+  rest = (rest - aim.sky) / (1.0 - aim.sun - aim.sky);
   if (scatterer.ground) {
     Real cosine = sqrt(u.y);
     Real sine = sqrt(1.0 - u.y);
@@ -532,27 +642,13 @@ Real direction_density(Scatterer scatterer, Aim aim, Vec3 sun, ARRAY(Real, share
                        Vec3 direction) {
   Real own = scatterer.ground ? max(direction.z, 0.0) / PI
                               : mixed_phase(share, scattering_angle(direction, scatterer.incoming));
-  Real density = (1.0 - aim.sun - aim.horizon) * own;
+  Real density = (1.0 - aim.sun - aim.sky) * own;
   if (aim.sun > 0.0) density += aim.sun * peak_density(sun, direction);
-  if (aim.horizon > 0.0) density += aim.horizon * horizon_density(aim, direction);
+  if (aim.sky > 0.0) density += aim.sky * from_sky_density(aim, direction);
   return density;
 }
 
 // --- A step of a walk -------------------------------------------------------------------------------
-
-SunRay sun_from(Walk walk) {
-  SunRay ray;
-  ray.direction = walk.sun;
-  ray.irradiance = 1.0;
-  ray.distance_km = 0.0;
-  if (NEAR_SUN) {
-    ray.distance_km = length(walk.sun);
-    ray.direction = walk.sun / ray.distance_km;
-    Real ratio = scene.sun_distance_km / ray.distance_km;
-    ray.irradiance = ratio * ratio;
-  }
-  return ray;
-}
 
 // The share of the light that leaves a vertex of those that a direction brings, for every wavelength:
 // 1/(km sr) in air, 1/sr and with the cosine at the ground.
@@ -647,8 +743,8 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
   if (!flight.ground && !(sum > 0.0)) return false;
   UNROLL for (int c = 0; c < MEDIA; ++c) share[c] = share[c] / sum;
 
-  Aim aim = aim_at(sun.direction, carried > 0.0 ? min(sunlit / carried, 1.0) : 0.0);
-  walk.direction = choose_direction(scatterer, aim, sun.direction, share, Vec4(v.x, v.y, v.z, 0.0));
+  Aim aim = aim_at(sun.direction, walk.altitude_km, carried > 0.0 ? min(sunlit / carried, 1.0) : 0.0);
+  walk.direction = choose_direction(scatterer, aim, sun.direction, share, Vec4(v.x, v.y, v.z, u.w));
   scattered_share(scatterer, walk.direction, density, scattered);
   Real proposed = direction_density(scatterer, aim, sun.direction, share, walk.direction);
   if (!(proposed > 0.0)) return false;
@@ -656,8 +752,9 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
     throughput[group] = throughput[group] * scattered[group] / proposed;
   }
 
-  // Roulette, on what the walk may still find: towards the sun a forward peak lies ahead.
+  // Roulette, on what the walk may find: towards the sun a forward peak lies ahead.
   Real strength = strongest(throughput);
+  if (GUIDED) strength *= sky_light(aim.place) * (0.1 + from_sky_density(aim, walk.direction));
   if (aim.sun > 0.0) strength *= 1.0 + 4.0 * PI * peak_density(sun.direction, walk.direction);
   if (!(strength > 0.0)) return false;
   if (walk.vertices == 1) {

@@ -28,6 +28,25 @@ class Hillaire final : public Method {
 
   const MethodDescription& description() const override { return hillaire_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    Sizes sizes = Sizes::of(options);
+    double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
+    bool inside = problem.camera.altitude_km <= problem.thickness_km;
+    bool table = inside && options.at("march_pixels") == 0 && problem.sun_distance_km == 0 &&
+                 problem.sun_disc_samples == 1;
+    double marched =
+        table ? double(sizes.azimuths) * sizes.elevations : rays * problem.sun_disc_samples;
+    constexpr double a_node = 4, a_lookup = 6, a_column = 16;
+    double depths =
+        double(sizes.optical_depth.cosines) * sizes.optical_depth.altitudes * a_column;
+    double multiple = double(sizes.multiple_suns) * sizes.multiple_altitudes *
+                      options.at("multiple_directions") * options.at("multiple_samples") *
+                      a_node;
+    return media * (depths + multiple + marched * 2 * sizes.view_samples * a_node +
+                    (table ? rays * a_lookup : 0));
+  }
+
   int rays_at_once(const UploadedScene&, const MethodOptions&, const Pacer&) const override {
     return 1 << 16;
   }
@@ -125,42 +144,53 @@ const MethodDescription& hillaire_description() {
            "where few rows of the table lie."},
       // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
       // and 16 samples do what 192 and 32 do.
-      .options = {
-          size_option("transmittance_cosines", "Transmittance: directions",
-                      "Zenith cosines of the table of optical depths.", 8, 1024, 256),
-          size_option("transmittance_altitudes", "Transmittance: altitudes",
-                      "Altitudes of the table of optical depths.", 8, 512, 64),
-          size_option("multiple_suns", "Multiple scattering: suns",
-                      "Sun cosines of the table of multiple scattering.", 4, 256, 32),
-          size_option("multiple_altitudes", "Multiple scattering: altitudes",
-                      "Altitudes of the table of multiple scattering.", 4, 256, 32),
-          size_option("multiple_directions", "Multiple scattering: directions",
-                      "Directions over the sphere about each of its points.", 8, 1024, 64),
-          size_option("multiple_samples", "Multiple scattering: samples",
-                      "Samples along each of these directions.", 4, 64, 20),
-          size_option("sky_azimuths", "Sky view: azimuths",
-                      "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
-                      64),
-          size_option("sky_elevations", "Sky view: elevations",
-                      "Elevations of the sky view, half above and half below the horizon.", 4,
-                      512, 108),
-          size_option("view_samples", "View samples",
-                      "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16),
-          {.name = "forward_share",
-           .title = "Forward share",
-           .description = "Of the light that its mean cosine says a constituent scatters "
-                          "forwards, the share that orders two and up take as not scattered; "
-                          "0 is Hillaire's own method.",
-           .unit = "",
-           .minimum = 0,
-           .maximum = 0.9,
-           .default_value = 0.5,
-           .integer = false},
-          size_option(
-              "march_pixels", "March each pixel",
-              "1 marches every pixel instead of reading the sky view, as is always done "
-              "from outside the air and for a near or wide sun.",
-              0, 1, 0)}};
+      .options =
+          {size_option("transmittance_cosines", "Transmittance: directions",
+                       "Zenith cosines of the table of optical depths.", 8, 1024, 256),
+           size_option("transmittance_altitudes", "Transmittance: altitudes",
+                       "Altitudes of the table of optical depths.", 8, 512, 64),
+           size_option("multiple_suns", "Multiple scattering: suns",
+                       "Sun cosines of the table of multiple scattering.", 4, 256, 32),
+           size_option("multiple_altitudes", "Multiple scattering: altitudes",
+                       "Altitudes of the table of multiple scattering.", 4, 256, 32),
+           size_option("multiple_directions", "Multiple scattering: directions",
+                       "Directions over the sphere about each of its points.", 8, 1024, 64),
+           size_option("multiple_samples", "Multiple scattering: samples",
+                       "Samples along each of these directions.", 4, 64, 20),
+           size_option("sky_azimuths", "Sky view: azimuths",
+                       "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
+                       64),
+           size_option("sky_elevations", "Sky view: elevations",
+                       "Elevations of the sky view, half above and half below the horizon.", 4,
+                       512, 108),
+           size_option("view_samples", "View samples",
+                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16),
+           {.name = "forward_share",
+            .title = "Forward share",
+            .description = "Of the light that its mean cosine says a constituent scatters "
+                           "forwards, the share that orders two and up take as not scattered; "
+                           "0 is Hillaire's own method.",
+            .unit = "",
+            .minimum = 0,
+            .maximum = 0.9,
+            .default_value = 0.5,
+            .integer = false},
+           size_option(
+               "march_pixels", "March each pixel",
+               "1 marches every pixel instead of reading the sky view, as is always done "
+               "from outside the air and for a near or wide sun.",
+               0, 1, 0)},
+      .ladder = {{{"transmittance_cosines", 256},
+                  {"transmittance_altitudes", 64},
+                  {"multiple_suns", 32},
+                  {"multiple_altitudes", 32},
+                  {"multiple_directions", 64},
+                  {"multiple_samples", 20},
+                  {"sky_azimuths", 64},
+                  {"sky_elevations", 108},
+                  {"view_samples", 16},
+                  {"forward_share", 0.5},
+                  {"march_pixels", 0}}}};
   return description;
 }
 

@@ -34,10 +34,16 @@ class Raymarch final : public Method {
 
   const MethodDescription& description() const override { return raymarch_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    return rays * problem.sun_disc_samples *
+           static_cast<double>(cost(std::ssize(problem.media), options));
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     constexpr std::int64_t fewest = 64, most = 1 << 16;
-    std::int64_t fit = pacer.evaluations() / cost(scene, options, 1);
+    std::int64_t fit = pacer.evaluations() / cost(scene.media(), options);
     return static_cast<int>(std::clamp(fit / 64 * 64, fewest, most));
   }
 
@@ -53,18 +59,17 @@ class Raymarch final : public Method {
         Push push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
         tracer.commands.dispatch(kernel_, scene.constants(), bindings, vulkan::bytes_of(push),
                                  {vulkan::groups_for(tile.rays, 64)});
-        tracer.pacer.took(cost(scene, options, tile.rays), tracer.submit());
+        tracer.pacer.took(cost(scene.media(), options) * tile.rays, tracer.submit());
       }
     }
   }
 
  private:
-  /// Evaluations of a number of rays under one sun.
-  static std::int64_t cost(const UploadedScene& scene, const MethodOptions& options,
-                           std::int64_t rays) {
+  /// Evaluations of a ray under one sun.
+  static std::int64_t cost(std::int64_t media, const MethodOptions& options) {
     constexpr int usual_pieces = 4, a_node = 12;
-    return rays * usual_pieces * static_cast<std::int64_t>(options.at("view_nodes")) * a_node *
-           std::max(scene.media(), 1);
+    return usual_pieces * static_cast<std::int64_t>(options.at("view_nodes")) * a_node *
+           std::max<std::int64_t>(media, 1);
   }
 
   const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
@@ -105,6 +110,12 @@ const MethodDescription& raymarch_description() {
                    .default_value = 6,
                    .integer = true,
                    .logarithmic = true}},
+      .ladder = {{{"view_nodes", 3}},
+                 {{"view_nodes", 4}},
+                 {{"view_nodes", 6}},
+                 {{"view_nodes", 10}},
+                 {{"view_nodes", 16}},
+                 {{"view_nodes", 32}}},
   };
   return description;
 }

@@ -2,8 +2,8 @@
 // the optical depths.
 layout(constant_id = 12) const int MULTIPLE_SUNS = 2;
 layout(constant_id = 13) const int MULTIPLE_ALTITUDES = 2;
-layout(constant_id = 14) const int SKY_AZIMUTHS = 2;
-layout(constant_id = 15) const int SKY_ELEVATIONS = 4;
+layout(constant_id = 14) const int SKY_VIEW_AZIMUTHS = 2;
+layout(constant_id = 15) const int SKY_VIEW_ELEVATIONS = 4;
 
 // The share of each constituent's scattering that changes a direction, by group of wavelengths: the rest is
 // a forward peak that goes straight on. Tables are made without it (with optical depths to match), and

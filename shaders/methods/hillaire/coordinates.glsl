@@ -11,7 +11,7 @@ Real twilight_sine() {
 // Cosines of the sun, uniform in asinh((mu_s - c) / w): c in the middle of twilight, w half of its length.
 Real stretched_sun(Real mu_sun) { return asinh((mu_sun / twilight_sine() + 0.3) / 0.5); }
 
-Real sun_coordinate(Real mu_sun) {
+Real table_sun_coordinate(Real mu_sun) {
   Real low = stretched_sun(-1.0);
   return clamp((stretched_sun(mu_sun) - low) / (stretched_sun(1.0) - low), 0.0, 1.0);
 }
@@ -22,7 +22,7 @@ Real sun_cosine_at(Real x) {
 }
 
 // Altitudes, closer together next to the ground.
-Real altitude_coordinate(Real h) { return sqrt(clamp(h / scene.thickness_km, 0.0, 1.0)); }
+Real table_altitude_coordinate(Real h) { return sqrt(clamp(h / scene.thickness_km, 0.0, 1.0)); }
 Real altitude_at(Real y) { return y * y * scene.thickness_km; }
 
 // From the horizon (0) to the zenith or the nadir (1), uniform in the square root of the difference of

@@ -47,9 +47,9 @@ void add_sky(SunlitRay ray, ScatteringAngle angle, INOUT_ARRAY(Vec4, radiance, G
     pass_panel(ray, panel, column, density, column_to);
     for (int i = 0; i < 4; ++i) {
       Node node = node_of(ray, panel, i);
-      NodePosition sun = node_position(sun_coordinate(node.mu_sun), MULTIPLE_SUNS);
+      NodePosition sun = node_position(table_sun_coordinate(node.mu_sun), MULTIPLE_SUNS);
       NodePosition altitude =
-          node_position(altitude_coordinate(node.altitude_km), MULTIPLE_ALTITUDES);
+          node_position(table_altitude_coordinate(node.altitude_km), MULTIPLE_ALTITUDES);
       transmittance_to_sun(node.altitude_km, node.mu_sun, light);
       UNROLL for (int g = 0; g < GROUPS; ++g) {
         Vec4 seen = seen_width(node, column_to, i, g);

@@ -25,7 +25,7 @@ void main() {
   load_scene();
   load_media();
   take_out_forward_peak();
-  SunlitRay ray = sky_ray(texel % SKY_AZIMUTHS, texel / SKY_AZIMUTHS, scene.camera_altitude_km,
+  SunlitRay ray = sky_ray(texel % SKY_VIEW_AZIMUTHS, texel / SKY_VIEW_AZIMUTHS, scene.camera_altitude_km,
                           scene.sun_direction.z);
   Path idle;
   Real column[MEDIA_SIZE];

@@ -9,8 +9,8 @@ struct MultiplePosition {
 
 MultiplePosition multiple_position(Real h, Real mu_sun) {
   MultiplePosition position;
-  position.sun = node_position(sun_coordinate(mu_sun), MULTIPLE_SUNS);
-  position.altitude = node_position(altitude_coordinate(h), MULTIPLE_ALTITUDES);
+  position.sun = node_position(table_sun_coordinate(mu_sun), MULTIPLE_SUNS);
+  position.altitude = node_position(table_altitude_coordinate(h), MULTIPLE_ALTITUDES);
   return position;
 }
 
@@ -25,7 +25,7 @@ Vec4 multiple_scattering(MultiplePosition position, int group) {
 }
 
 Vec4 diffuse_irradiance(Real mu_sun, int group) {
-  NodePosition sun = node_position(sun_coordinate(mu_sun), MULTIPLE_SUNS);
+  NodePosition sun = node_position(table_sun_coordinate(mu_sun), MULTIPLE_SUNS);
   return exp(mix(log_irradiance[sun.node * GROUPS + group],
                  log_irradiance[(sun.node + 1) * GROUPS + group], sun.fraction));
 }
