@@ -191,13 +191,14 @@ TEST(PathTracing, OfMoreOrdersIsNeverDarker) {
 }
 
 TEST(PathTracing, OfSixteenOrdersIsNearlyThatOfAll) {
+  // In this air an order is at most some 0.6 of the one before: 0.6^16 is 3e-4.
   std::vector<Direction> directions = spread(20, -60, 88);
   Scene scene = earth(0.002, 30, 1024);
   auto all = device().radiance(scene, directions, false).radiance;
   scene.method.scattering_orders = 16;
   auto most = device().radiance(scene, directions, false).radiance;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (int w = 0; w < 3; ++w) EXPECT_NEAR(most[i][w], all[i][w], 1e-4 * all[i][w]);
+    for (int w = 0; w < 3; ++w) EXPECT_NEAR(most[i][w], all[i][w], 1e-3 * all[i][w]);
   }
 }
 

@@ -113,13 +113,22 @@ class PathTracing final : public Method {
     return std::int64_t{2 * segments + 32} * std::max(media, 1) + 16;
   }
 
-  /// Rounds of all loops in one step, none unrolled.
+  /// Rounds of all loops in one step, none unrolled. @throws OverLimit where they are too many
   static int loops_of_step(const UploadedScene& scene) {
     int densities = scene.density_iterations(), media = scene.media(), groups = scene.groups();
-    int segment = 2 * densities + media + groups * (2 * media + 1);
-    int columns = 2 * (media + 32 * densities);
-    int phases = 3 * media * (groups + 12) + 6 * media * 8;
-    return 2 * segments * segment + 2 * columns + phases + 16 * groups;
+    int segment = 2 * densities + 2 * media + groups * (4 * media + 3);
+    // Columns go through all nodes of a table, on the way down and on the way up.
+    int columns = 2 * (8 * media + scene.profile_nodes() + 1);
+    int phases = 4 * media * (groups + 12) + 6 * media * 8;
+    int step = (2 * segments + Physics<float>::PARTS + 2) * segment + 2 * columns + phases +
+               16 * groups + densities;
+    if (step > most_loop_iterations) {
+      throw OverLimit("/atmosphere/constituents",
+                      "the tables of all profiles together have " +
+                          std::to_string(scene.profile_nodes()) +
+                          " nodes, more than a random walk can follow");
+    }
+    return step;
   }
 
   void reserve(vulkan::Device& device, const UploadedScene& scene, const Push& push) {
@@ -157,7 +166,7 @@ class PathTracing final : public Method {
     constants.push_back(segments);
     constants.push_back(guided);
     std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
-    std::int64_t most = std::max(most_loop_iterations / loops_of_step(scene), 1);
+    std::int64_t most = most_loop_iterations / loops_of_step(scene);
     do {
       push.steps = static_cast<int>(
           std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));

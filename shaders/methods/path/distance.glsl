@@ -39,8 +39,14 @@ struct Choice {
   Real mass;    // that it scatters
   Real all;     // that all of them scatter
   Real slope;   // of the logarithm of its density along the segment
+  Real thickest;  // its depth, of the wavelength with the largest
   Real pick;    // what is left of the random number where none was chosen
 };
+
+// Parts in which a chosen segment is looked at again: none where its density is nearly even.
+int parts_of(Choice choice) {
+  return TABLES > 0 || choice.thickest > 0.5 || abs(choice.slope) > 1.0 ? PARTS : 1;
+}
 
 // Goes through a segment: densities at its end, and columns of all constituents in between.
 void pass_segment(Real h, Real next_h, Real width_km, INOUT_ARRAY(Real, density, MEDIA_SIZE),
@@ -67,6 +73,7 @@ Real yield_of(ARRAY(Real, density, MEDIA_SIZE), ARRAY(Vec4, light, GROUPS_SIZE))
 struct Loss {
   Real scattered;   // in the whole of it
   Real yield;       // at its end, 1/km, before the loss `thinnest`
+  Real thickest;
   Real thinnest;    // depth that all wavelengths have in common: e^-thinnest may be beyond a float
 };
 
@@ -75,12 +82,14 @@ Loss lose_light(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density_at_end, MED
   Vec4 depth[GROUPS_SIZE];
   Loss loss;
   loss.thinnest = 1e30;
+  loss.thickest = 0.0;
   UNROLL for (int group = 0; group < GROUPS; ++group) {
     depth[group] = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) {
       depth[group] = depth[group] + extinction(c, group) * column[c];
     }
     loss.thinnest = min(loss.thinnest, smallest(depth[group]));
+    loss.thickest = max(loss.thickest, -smallest(-depth[group]));
   }
   Real common_part = exp(-loss.thinnest);
   loss.scattered = 0.0;
@@ -100,10 +109,10 @@ Loss lose_light(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density_at_end, MED
   return loss;
 }
 
-// Looks at the segments [first, end) of a leg, or at parts of one of them, and picks one: by mass, or
+// Looks at the segments [first, end) of a leg, or where `parts` is not 0 at those of one of them, and picks one: by mass, or
 // the one that is `wanted` where that is not negative. `light` comes in at the first one and goes out
 // behind the last; `light_there` is that at the chosen one.
-Choice choose_segment(Walk walk, Leg leg, bool parts, Segment whole, int first, int end, Real pick,
+Choice choose_segment(Walk walk, Leg leg, int parts, Segment whole, int first, int end, Real pick,
                       int wanted, INOUT_ARRAY(Vec4, light, GROUPS_SIZE),
                       INOUT_ARRAY(Vec4, light_there, GROUPS_SIZE)) {
   Choice choice;
@@ -111,6 +120,7 @@ Choice choose_segment(Walk walk, Leg leg, bool parts, Segment whole, int first, 
   choice.mass = 0.0;
   choice.all = 0.0;
   choice.slope = 0.0;
+  choice.thickest = 0.0;
   choice.pick = pick;
   Real density[MEDIA_SIZE];
   Real column[MEDIA_SIZE];
@@ -119,7 +129,7 @@ Choice choose_segment(Walk walk, Leg leg, bool parts, Segment whole, int first, 
   Real yield = 0.0;
   for (int i = first; i < end; ++i) {
     Segment segment = segment_at(i);
-    if (parts) segment = part_at(whole, i);
+    if (parts > 0) segment = part_at(whole, i, parts);
     Stretch stretch = stretch_of(leg, segment.back);
     Real begin_km = stretched_distance(stretch, segment.begin);
     Real end_km = stretched_distance(stretch, segment.end);
@@ -142,6 +152,7 @@ Choice choose_segment(Walk walk, Leg leg, bool parts, Segment whole, int first, 
       if (by_mass) choice.pick = choice.pick * choice.all / mass;
       choice.segment = segment;
       choice.mass = mass;
+      choice.thickest = loss.thickest;
       choice.slope = slope_between(yield * stretched_rate(stretch, segment.begin),
                                    loss.yield * stretched_rate(stretch, segment.end), loss.thinnest);
       UNROLL for (int group = 0; group < GROUPS; ++group) light_there[group] = light_here[group];
@@ -180,12 +191,42 @@ struct Flight {
 // falls off along a walk, because a choice that leads nowhere costs a long walk all of its past.
 Real even_share(int vertices) { return 0.1 / Real(1 + vertices * vertices); }
 
-// Draws the next vertex with a density close to throughput x scattering x transmittance.
+// To the ground at the end of the leg, with a probability; 0 where a walk has nowhere to go.
+Flight to_end(Leg leg, Real density) {
+  Flight flight;
+  flight.ends = !(density > 0.0);
+  flight.ground = true;
+  flight.distance_km = leg.back_km + leg.on_km;
+  flight.altitude_km = 0.0;
+  flight.density = density;
+  return flight;
+}
+
+// To a point of a segment, found from u; `by_mass` is the density of the segment itself among all, times
+// the share of the choices by mass, `evenly` that of even ones.
+Flight to_segment(Leg leg, Choice choice, Real by_mass, Real evenly, Real u, bool even) {
+  Segment segment = choice.segment;
+  Stretch stretch = stretch_of(leg, segment.back);
+  Real within = clamp(even ? u : tilted_point(choice.slope, u), 0.0, 1.0);
+  Real x = segment.begin + (segment.end - segment.begin) * within;
+  Real from_lowest_km = stretched_distance(stretch, x);
+  Flight flight;
+  flight.ends = false;
+  flight.ground = false;
+  flight.distance_km = segment.back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
+  flight.altitude_km = clamp(altitude_after(leg.low_h, stretch.mu, from_lowest_km), 0.0,
+                             scene.thickness_km);
+  flight.density = (by_mass * tilted_density(choice.slope, within) + evenly) /
+                   stretched_rate(stretch, x);
+  return flight;
+}
+
+// Draws the next vertex.
 Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), Vec4 u) {
   int first = leg.back_km > 0.0 ? 0 : SEGMENTS;
   int end = leg.on_km > 0.0 ? 2 * SEGMENTS : SEGMENTS;
   int segments = end - first;
-  Real evenly = even_share(walk.vertices);
+  Real evenly = segments > 0 ? even_share(walk.vertices) : 0.0;
   bool even = u.x < evenly;
   Real pick = even ? u.x / evenly : (u.x - evenly) / (1.0 - evenly);
 
@@ -195,39 +236,30 @@ Flight choose_flight(Walk walk, Leg leg, ARRAY(Vec4, throughput, GROUPS_SIZE), V
     light[group] = throughput[group];
     light_there[group] = throughput[group];
   }
-  Segment none = segment_at(first);
-  Choice choice = choose_segment(walk, leg, false, none, first, end, pick,
-                                 even ? first + min(int(pick * Real(segments)), segments - 1) : -1,
-                                 light, light_there);
-  Real ground = 0.0;
-  if (leg.meets_ground) {
-    UNROLL for (int group = 0; group < GROUPS; ++group) {
-      ground += total(light[group] * ground_albedo(group));
+  Choice choice;
+  choice.segment = segment_at(first);
+  Real by_mass = 1.0 - evenly;
+  // First among the segments, then among the parts of one: a loop, so that the code is there once.
+  for (int level = 0; level < 2; ++level) {
+    int count = level == 0 ? segments : parts_of(choice);
+    int wanted = even ? min(int(pick * Real(count)), count - 1) : -1;
+    choice = choose_segment(walk, leg, level == 0 ? 0 : count, choice.segment, level == 0 ? first : 0,
+                            level == 0 ? end : count, pick, level == 0 && even ? first + wanted : wanted, light,
+                            light_there);
+    Real all = choice.all;
+    if (level == 0 && leg.meets_ground) {
+      Real ground = 0.0;
+      UNROLL for (int group = 0; group < GROUPS; ++group) {
+        ground += total(light[group] * ground_albedo(group));
+      }
+      if (GUIDED) ground *= light_ahead(walk, leg, true, 0.0, 0.0);
+      all += ground;
+      if (!even && choice.pick * all < ground) return to_end(leg, by_mass * ground / all);
     }
-    if (GUIDED) ground *= light_ahead(walk, leg, true, 0.0, 0.0);
+    if (segments == 0 || (!even && !(all > 0.0))) return to_end(leg, 0.0);
+    by_mass = all > 0.0 ? by_mass * (choice.mass / all) * Real(level == 0 ? SEGMENTS : count) : 0.0;
+    pick = u.y;
+    UNROLL for (int group = 0; group < GROUPS; ++group) light[group] = light_there[group];
   }
-  Real all = choice.all + ground;
-  Flight flight;
-  flight.ground = leg.meets_ground && (segments == 0 || (!even && choice.pick * all < ground));
-  flight.ends = segments == 0 ? !(ground > 0.0) : !even && !(all > 0.0);
-  flight.distance_km = leg.back_km + leg.on_km;
-  flight.altitude_km = 0.0;
-  flight.density = segments == 0 ? 1.0 : (1.0 - evenly) * ground / all;
-  if (flight.ends || flight.ground) return flight;
-
-  Choice part = choose_segment(walk, leg, true, choice.segment, 0, PARTS, u.y,
-                               even ? min(int(u.y * Real(PARTS)), PARTS - 1) : -1, light_there, light);
-  Stretch stretch = stretch_of(leg, part.segment.back);
-  Real within = clamp(even ? u.z : tilted_point(part.slope, u.z), 0.0, 1.0);
-  Real x = part.segment.begin + (part.segment.end - part.segment.begin) * within;
-  Real from_lowest_km = stretched_distance(stretch, x);
-  flight.distance_km = part.segment.back ? leg.back_km - from_lowest_km : leg.back_km + from_lowest_km;
-  flight.altitude_km = clamp(altitude_after(leg.low_h, stretch.mu, from_lowest_km), 0.0,
-                             scene.thickness_km);
-  Real by_mass = all > 0.0 && part.all > 0.0
-                     ? choice.mass / all * (part.mass / part.all) * Real(PARTS) : 0.0;
-  Real density = (1.0 - evenly) * by_mass * tilted_density(part.slope, within) +
-                 evenly / Real(segments);
-  flight.density = density * Real(SEGMENTS) / stretched_rate(stretch, x);
-  return flight;
+  return to_segment(leg, choice, by_mass, evenly * Real(SEGMENTS) / Real(segments), u.z, even);
 }

@@ -71,12 +71,13 @@ Segment segment_at(int i) {
   return segment;
 }
 
-// Part i of PARTS of a segment.
-CONSTANT int PARTS = 8;
-Segment part_at(Segment whole, int i) {
+// Part i of `count` of a segment.
+Segment part_at(Segment whole, int i, int count) {
   Segment part;
   part.back = whole.back;
-  part.begin = whole.begin + (whole.end - whole.begin) * (Real(i) / Real(PARTS));
-  part.end = whole.begin + (whole.end - whole.begin) * (Real(i + 1) / Real(PARTS));
+  part.begin = whole.begin + (whole.end - whole.begin) * (Real(i) / Real(count));
+  part.end = whole.begin + (whole.end - whole.begin) * (Real(i + 1) / Real(count));
   return part;
 }
+
+CONSTANT int PARTS = 8;
