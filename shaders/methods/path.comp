@@ -4,6 +4,8 @@
 
 // Segments of each half of a ray that a step of a walk looks at.
 layout(constant_id = 10) const int SEGMENTS = 8;
+// Whether proposals know where the light is.
+layout(constant_id = 11) const bool GUIDED = false;
 
 layout(std430, binding = OWN) restrict readonly buffer GuideBuffer { Real path_guide[]; };
 // By lane, between two dispatches: direction and altitude, sun and strength, then the throughput of every

@@ -15,11 +15,11 @@ class Walks {
 
   explicit Walks(const Problem& problem, std::uint32_t seed = 0)
       : p_(pack<double>(problem)), orders_(problem.scattering_orders), seed_(seed) {
-    p_.path_guide = path_guide(p_);
+    set_path_guide(p_, problem);
   }
 
-  /// What one walk finds from the second order on, by wavelength; `ray` and `number` only choose
-  /// its random numbers.
+  /// What one walk finds from the second order on, by wavelength; `ray` and `number` only
+  /// choose its random numbers.
   glm::dvec4 walk(const glm::dvec3& direction, std::uint32_t ray, std::uint32_t number) {
     P::Stream stream{ray, number, seed_};
     glm::dvec4 throughput[P::GROUPS_SIZE], radiance[P::GROUPS_SIZE] = {};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/methods/path/light_guide.h"
+
 namespace cyanometer {
 namespace {
 
@@ -85,7 +87,7 @@ void append_cells(std::vector<double>& guide, const P& p, int c) {
 
 }  // namespace
 
-std::vector<double> path_guide(P& p) {
+void set_path_guide(P& p, const Problem& problem) {
   double column[P::MEDIA_SIZE];
   p.columns_to_top(0, 1, column);
   std::vector<double> scattering = scattering_of_media(p), peaked(p.MEDIA, 0.0);
@@ -97,11 +99,12 @@ std::vector<double> path_guide(P& p) {
     log_scale += depth * std::log(column[c]);
     if (peak(p, c) > 4) all_peaked += peaked[c] = depth;
   }
-  std::vector<double> guide{all > 0 ? std::exp(log_scale / all) : p.scene.thickness_km,
-                            all_peaked > 0 ? 0.3 * std::sqrt(all_peaked / all) : 0.0};
+  std::vector<double>& guide = p.path_guide;
+  guide = {all > 0 ? std::exp(log_scale / all) : p.scene.thickness_km,
+           all_peaked > 0 ? 0.3 * std::sqrt(all_peaked / all) : 0.0};
   for (double depth : peaked) guide.push_back(all_peaked > 0 ? depth / all_peaked : 0.0);
   for (int c = 0; c < p.MEDIA; ++c) append_cells(guide, p, c);
-  return guide;
+  if (needs_light_guide(problem)) append_light_guide(p);
 }
 
 }  // namespace cyanometer

@@ -7,7 +7,8 @@
 
 namespace cyanometer {
 
-/// The buffer `path_guide` of shaders/methods/path.glsl, for a packed scene.
-std::vector<double> path_guide(Physics<double>& physics);
+/// Fills the buffer `path_guide` of a packed scene; its part on the light only where the sun is
+/// low (light_guide.h).
+void set_path_guide(Physics<double>& physics, const Problem& problem);
 
 }  // namespace cyanometer

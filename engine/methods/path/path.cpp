@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/methods/path/guide.h"
+#include "engine/methods/path/light_guide.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "spirv/path.spv.h"
 #include "spirv/path_finish.spv.h"
@@ -39,14 +40,15 @@ struct Guide : Tables {
   vulkan::Buffer buffer;
 };
 
-std::shared_ptr<const Guide> guide_of(Tracer& tracer, const UploadedScene& scene) {
+std::shared_ptr<const Guide> guide_of(Tracer& tracer, const UploadedScene& scene, bool guided) {
   auto make = [&] {
     Physics<double> physics = pack<double>(scene.problem());
-    std::vector<double> values = path_guide(physics);
+    set_path_guide(physics, scene.problem());
+    const std::vector<double>& values = physics.path_guide;
     return std::make_shared<const Guide>(tracer.device,
                                          std::vector<float>(values.begin(), values.end()));
   };
-  return tracer.tables.get<Guide>("path guide " + scene.air_key(), make);
+  return tracer.tables.get<Guide>((guided ? "path, light " : "path ") + scene.air_key(), make);
 }
 
 class PathTracing final : public Method {
@@ -59,13 +61,20 @@ class PathTracing final : public Method {
 
   const MethodDescription& description() const override { return path_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    constexpr double usual_vertices = 4;
+    return rays * walks_of(options) * usual_vertices *
+           static_cast<double>(cost_of_step(static_cast<int>(problem.media.size())));
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     // Lanes enough to keep a device busy, few enough that a dispatch takes each of them some
     // steps on.
     constexpr std::int64_t fewest = 2048, most = 1 << 18, steps = 16;
     std::int64_t lanes =
-        std::clamp(pacer.evaluations() / (steps * cost_of_step(scene)), fewest, most);
+        std::clamp(pacer.evaluations() / (steps * cost_of_step(scene.media())), fewest, most);
     int rays =
         static_cast<int>(std::max<std::int64_t>(lanes / slices_for(walks_of(options)), 64));
     return std::min(rays, first_order_->rays_at_once(scene, first_order(1), pacer));
@@ -100,8 +109,8 @@ class PathTracing final : public Method {
 
   /// Evaluations of densities in one step of a walk: its segments, the columns to the next
   /// vertex and to the sun, phases and random numbers.
-  static std::int64_t cost_of_step(const UploadedScene& scene) {
-    return std::int64_t{2 * segments + 32} * std::max(scene.media(), 1) + 16;
+  static std::int64_t cost_of_step(int media) {
+    return std::int64_t{2 * segments + 32} * std::max(media, 1) + 16;
   }
 
   /// Rounds of all loops in one step, none unrolled.
@@ -140,12 +149,14 @@ class PathTracing final : public Method {
   }
 
   void walk(Tracer& tracer, const UploadedScene& scene, Push push) {
-    std::shared_ptr<const Guide> guide = guide_of(tracer, scene);
+    bool guided = needs_light_guide(scene.problem());
+    std::shared_ptr<const Guide> guide = guide_of(tracer, scene, guided);
     std::vector<vulkan::Binding> bindings =
         scene.bind({guide->buffer, *walks_, *counts_, *sums_, unfinished_});
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
-    std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene);
+    constants.push_back(guided);
+    std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
     std::int64_t most = std::max(most_loop_iterations / loops_of_step(scene), 1);
     do {
       push.steps = static_cast<int>(
@@ -196,6 +207,10 @@ const MethodDescription& path_description() {
                    .default_value = 0,
                    .integer = true,
                    .logarithmic = false}},
+      .ladder = {{{"samples_per_pixel", 16}, {"seed", 0}},
+                 {{"samples_per_pixel", 64}, {"seed", 0}},
+                 {{"samples_per_pixel", 256}, {"seed", 0}},
+                 {{"samples_per_pixel", 1024}, {"seed", 0}}},
   };
   return description;
 }

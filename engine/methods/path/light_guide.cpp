@@ -1,0 +1,226 @@
+#include "engine/methods/path/light_guide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/gauss_legendre.h"
+
+namespace cyanometer {
+namespace {
+
+using P = Physics<double>;
+
+using Sky = std::vector<double>;  ///< irradiance from each cell on a small sphere
+
+double total(const Sky& sky) {
+  double sum = 0;
+  for (double cell : sky) sum += cell;
+  return sum;
+}
+
+/// Up to three wavelengths (lanes) from those of the smallest to those of the largest vertical
+/// depth, of those that scatter at all.
+std::vector<int> typical_lanes(P& p) {
+  double column[P::MEDIA_SIZE];
+  p.columns_to_top(0, 1, column);
+  std::vector<std::pair<double, int>> depths;
+  for (int lane = 0; lane < 4 * p.GROUPS; ++lane) {
+    double depth = 0, scattered = 0;
+    for (int c = 0; c < p.MEDIA; ++c) {
+      depth += column[c] * p.extinction(c, lane / 4)[lane % 4];
+      scattered += column[c] * p.scattering(c, lane / 4)[lane % 4];
+    }
+    if (scattered > 0) depths.emplace_back(depth, lane);
+  }
+  std::sort(depths.begin(), depths.end());
+  std::vector<int> lanes;
+  std::size_t count = std::min<std::size_t>(depths.size(), 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    lanes.push_back(
+        depths[i * (depths.size() - 1) / std::max<std::size_t>(count - 1, 1)].second);
+  }
+  return lanes;
+}
+
+/// The scattering of a shell lit from outside, order by order, with isotropic phases and at one
+/// wavelength: enough to tell where light is.
+class Lighting {
+ public:
+  Lighting(P& physics, int lane) : p_(physics) {
+    for (int c = 0; c < p_.MEDIA; ++c) {
+      extinction_.push_back(p_.extinction(c, lane / 4)[lane % 4]);
+      scattering_.push_back(p_.scattering(c, lane / 4)[lane % 4]);
+    }
+    albedo_ = p_.ground_albedo(lane / 4)[lane % 4];
+    for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) {
+      sunlight_.push_back(sunlight(altitude(i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
+                                   sun(i % P::LIGHT_SUNS, P::LIGHT_SUNS)));
+    }
+    light_ = sunlight_;
+    sky_.assign(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
+    constexpr int orders = 3;
+    for (int order = 0; order < orders; ++order) {
+      look_around();
+      add_skylight();
+    }
+  }
+
+  /// By altitude and sun, what scatters there.
+  const std::vector<double>& light() const { return light_; }
+  /// By altitude and sun, what arrives there by scattering.
+  const std::vector<Sky>& sky() const { return sky_; }
+
+ private:
+  /// Middles of the cells: the inverses of altitude_coordinate and sun_coordinate.
+  double altitude(int i, int count) const {
+    double x = (i + 0.5) / count;
+    return x * x * p_.scene.thickness_km;
+  }
+  double sun(int j, int count) const {
+    double dip = std::sqrt(p_.squared_height(p_.scene.thickness_km)) /
+                 (p_.scene.planet_radius_km + p_.scene.thickness_km);
+    double lowest = std::asinh(-4.0), highest = std::asinh(2 / dip + 0.5);
+    double y = lowest + (highest - lowest) * (j + 0.5) / count;
+    return std::min((std::sinh(y) - 0.5) * dip / 2, 1.0);
+  }
+
+  double depth(const double (&column)[P::MEDIA_SIZE]) const {
+    double sum = 0;
+    for (int c = 0; c < p_.MEDIA; ++c) sum += extinction_[c] * column[c];
+    return sum;
+  }
+
+  double sunlight(double h, double mu_sun) {
+    if (p_.meets_ground(h, mu_sun)) return 0;
+    double column[P::MEDIA_SIZE];
+    p_.columns_to_top(h, mu_sun, column);
+    return std::exp(-depth(column));
+  }
+
+  /// A node on a ray: what it adds to the ray's light for each unit of light at it.
+  struct Node {
+    double altitude_km, distance_km, weight;
+  };
+
+  std::vector<Node> nodes_along(double h, double mu) {
+    static const GaussRule rule = gauss_legendre(12);
+    P::Leg leg = p_.leg_from(h, mu);
+    std::vector<Node> nodes;
+    double column[P::MEDIA_SIZE], density[P::MEDIA_SIZE];
+    for (bool back : {true, false}) {
+      P::Stretch stretch = p_.stretch_of(leg, back);
+      if (stretch.length_km <= 0) continue;
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        double d = p_.stretched_distance(stretch, rule.nodes[k]);
+        double t = back ? leg.back_km - d : leg.back_km + d;
+        double node_h = p_.altitude_after(leg.low_h, stretch.mu, d);
+        p_.columns_along(h, mu, t, column);
+        p_.densities(node_h, density);
+        double scattered = 0;
+        for (int c = 0; c < p_.MEDIA; ++c) scattered += scattering_[c] * density[c];
+        nodes.push_back({node_h, t,
+                         rule.weights[k] * p_.stretched_rate(stretch, rule.nodes[k]) *
+                             scattered * std::exp(-depth(column))});
+      }
+    }
+    if (leg.meets_ground) {
+      double length = leg.back_km + leg.on_km;
+      p_.columns_along(h, mu, length, column);
+      nodes.push_back({0, length, albedo_ * std::exp(-depth(column))});
+    }
+    return nodes;
+  }
+
+  /// The sky of every place, from the light of all others.
+  void look_around() {
+    for (int i = 0; i < P::SKY_ALTITUDES; ++i) {
+      double h = altitude(i, P::SKY_ALTITUDES);
+      for (int row = 0; row < P::SKY_ELEVATIONS; ++row) {
+        double mu = p_.sky_cosine(2 * (row + 0.5) / P::SKY_ELEVATIONS - 1);
+        std::vector<Node> nodes = nodes_along(h, mu);
+        for (int j = 0; j < P::SKY_SUNS; ++j) look_up(i, row, j, h, mu, nodes);
+      }
+    }
+  }
+
+  void look_up(int i, int row, int j, double h, double mu, const std::vector<Node>& nodes) {
+    double radius = p_.scene.planet_radius_km, mu_sun = sun(j, P::SKY_SUNS);
+    for (int column = 0; column < P::SKY_AZIMUTHS; ++column) {
+      double s = (column + 0.5) / P::SKY_AZIMUTHS;
+      double nu =
+          mu * mu_sun + std::sqrt((1 - mu * mu) * (1 - mu_sun * mu_sun)) * (1 - 2 * s * s);
+      double radiance = 0;
+      for (const Node& node : nodes) {
+        double there =
+            ((radius + h) * mu_sun + node.distance_km * nu) / (radius + node.altitude_km);
+        radiance += node.weight * light_[p_.light_place(node.altitude_km, there)];
+      }
+      double solid_angle = 2.0 / P::SKY_CELLS / p_.sky_density(mu, s);
+      sky_[i * P::SKY_SUNS + j][row * P::SKY_AZIMUTHS + column] =
+          radiance * solid_angle / (4 * std::numbers::pi);
+    }
+  }
+
+  void add_skylight() {
+    for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) {
+      double h = altitude(i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
+             mu_sun = sun(i % P::LIGHT_SUNS, P::LIGHT_SUNS);
+      light_[i] = sunlight_[i] + total(sky_[p_.sky_place(h, mu_sun)]);
+    }
+  }
+
+  P& p_;
+  std::vector<double> extinction_, scattering_;
+  double albedo_ = 0;
+  std::vector<double> sunlight_, light_;
+  std::vector<Sky> sky_;
+};
+
+/// Where the estimate knows of no light, walks still look.
+void append_light(std::vector<double>& guide, const std::vector<double>& light) {
+  double most = *std::max_element(light.begin(), light.end());
+  for (double value : light) guide.push_back(std::max(value, 1e-7 * most));
+}
+
+void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
+  std::vector<double> light;
+  for (const Sky& sky : skies) light.push_back(total(sky));
+  append_light(guide, light);
+  for (const Sky& sky : skies) {
+    double sum = 0, all = std::max(total(sky), 1e-300);
+    for (double cell : sky) {
+      guide.push_back(sum / all);
+      sum += cell;
+    }
+    guide.push_back(1.0);
+  }
+}
+
+}  // namespace
+
+void append_light_guide(Physics<double>& physics) {
+  std::vector<double> light(P::LIGHT_ALTITUDES * P::LIGHT_SUNS, 0.0);
+  std::vector<Sky> sky(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
+  for (int lane : typical_lanes(physics)) {
+    Lighting lighting(physics, lane);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += lighting.light()[i];
+    for (std::size_t i = 0; i < sky.size(); ++i) {
+      for (std::size_t k = 0; k < sky[i].size(); ++k) sky[i][k] += lighting.sky()[i][k];
+    }
+  }
+  append_light(physics.path_guide, light);
+  append_sky(physics.path_guide, sky);
+  physics.GUIDED = true;
+}
+
+bool needs_light_guide(const Problem& problem) {
+  // The lowest sun over all that the camera can see of the lower air.
+  double radius = problem.planet_radius_km, lower_air = problem.thickness_km / 20;
+  double away = std::acos(radius / (radius + problem.camera.altitude_km)) +
+                std::acos(radius / (radius + lower_air));
+  constexpr double low = 0.12;  // radians
+  return std::asin(std::clamp(problem.sun_direction[2], -1.0, 1.0)) - away < low;
+}
+
+}  // namespace cyanometer
