@@ -58,6 +58,19 @@ typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, 
   return grid;
 }
 
+double largest_depth(const Problem& problem) {
+  double largest = 0;
+  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
+    double depth = 0;
+    for (const Medium& medium : problem.media) {
+      depth += (medium.scattering_per_km[w] + medium.absorption_per_km[w]) *
+               column_km(medium.profile, problem.thickness_km);
+    }
+    largest = std::max(largest, depth);
+  }
+  return largest;
+}
+
 int orders_until_geometric(const Problem& problem) {
   double largest = 0;
   for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
@@ -71,8 +84,8 @@ int orders_until_geometric(const Problem& problem) {
       if (auto* table = std::get_if<TabulatedPhase>(&medium.phase)) {
         g = tabulated_coefficients(table->angle_rad, table->values[w], 1)[1];
       }
-      depth +=
-          scattering * column_km(medium.profile, problem.thickness_km) * (1 - std::max(g, 0.0) / 2);
+      depth += scattering * column_km(medium.profile, problem.thickness_km) *
+               (1 - std::max(g, 0.0) / 2);
     }
     // About what a layer and the ground under it send back to each other.
     double air = 1.5 * depth / (1 + 1.5 * depth);

@@ -12,6 +12,9 @@ template <class Real>
 typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, int altitudes,
                                                         int suns);
 
+/// Vertical optical depth of extinction, at the wavelength where it is largest.
+double largest_depth(const Problem& problem);
+
 /// Orders after which each is the same share of the one before, so that a geometric series
 /// closes the sum.
 int orders_until_geometric(const Problem& problem);

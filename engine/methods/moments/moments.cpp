@@ -50,6 +50,11 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
                           option(options, "suns"),     option(options, "directions"),
                           option(options, "azimuths"), option(options, "steps"),
                           option(options, "orders"),   true};
+  // Thick air is lit in a layer that is thin for its height, and light comes from close by.
+  double depth = std::min(1.5 * largest_depth(problem), 12.0);
+  if (settings.altitudes == 0) settings.altitudes = 8 + static_cast<int>(depth);
+  settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
+  if (settings.steps == 0) settings.steps = 6 + static_cast<int>(depth);
   if (settings.orders == 0) settings.orders = orders_until_geometric(problem);
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
@@ -274,14 +279,20 @@ const MethodDescription& moments_description() {
       .options =
           {whole("degree", "Degree", "Highest degree of the spherical-harmonic moments.", 2, 8,
                  4),
-           whole("altitudes", "Altitudes", "Nodes of the tables over altitude.", 4, 32, 8),
+           whole(
+               "altitudes", "Altitudes",
+               "Nodes of the tables over altitude; 0 takes 8, and more where the air is thick.",
+               0, 32, 0),
            whole("suns", "Suns", "Nodes of the tables over the sun's elevation.", 8, 64, 16),
            whole("directions", "Directions",
                  "Zenith angles above the horizon of the rays that gather light; below it are "
                  "half as many.",
                  4, 24, 8),
            whole("azimuths", "Azimuths", "Azimuths of those rays, in half a turn.", 4, 24, 6),
-           whole("steps", "Steps", "Gauss nodes on each of those rays.", 4, 32, 6),
+           whole(
+               "steps", "Steps",
+               "Gauss nodes on each of those rays; 0 takes 6, and more where the air is thick.",
+               0, 32, 0),
            whole("orders", "Orders",
                  "Orders that are traced before a geometric series takes over; 0 takes as many "
                  "as the air's depth and the ground's albedo ask for.",

@@ -108,9 +108,8 @@ class Solution {
     run(close, (grid_.altitudes + 1) * grid_.suns * groups_, 2 * slots(), push());
     int sum = table_values(grid_.altitudes);
     refine_altitudes(solver, sum);
-    solver.refine(
-        work_, tracer_, scene_, moments_, tables_.moments, tables_.fine_altitudes,
-        {fine_table(), 0, grid_.suns, tables_.fine_suns, slots() * groups_, 0});
+    solver.refine(work_, tracer_, scene_, moments_, tables_.moments, tables_.fine_altitudes,
+                  {fine_table(), 0, grid_.suns, tables_.fine_suns, slots() * groups_, 0});
     solver.refine(work_, tracer_, scene_, moments_, tables_.moments, 1,
                   {sum + grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
                    grid_.suns, tables_.fine_suns, groups_, 0});

@@ -1,0 +1,345 @@
+// The moment method on the device against solutions of other kinds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/accuracy/error.h"
+#include "engine/scene/document.h"
+#include "tests/moments/reference.h"
+#include "tests/oracle/adaptive.h"
+#include "tests/oracle/scenes.h"
+
+namespace cyanometer {
+namespace {
+
+using oracle::reference_scene;
+using oracle::towards;
+using Samples = std::vector<std::vector<double>>;
+
+Engine& device() {
+  static Engine engine;
+  return engine;
+}
+
+MethodChoice chosen(const std::string& name,
+                    const std::map<std::string, double>& options = {}) {
+  MethodChoice choice;
+  choice.name = name;
+  for (const MethodDescription& method : methods()) {
+    if (method.name != name) continue;
+    for (const MethodOption& option : method.options) {
+      choice.options[option.name] = option.default_value;
+    }
+  }
+  for (auto [option, value] : options) choice.options[option] = value;
+  return choice;
+}
+
+/// All orders; clear air with aerosol of optical depth 0.005.
+Scene clear_scene(double altitude_km, double sun_elevation_deg) {
+  Scene scene = reference_scene(altitude_km, sun_elevation_deg, 0.3);
+  scene.method = chosen("moments");
+  return scene;
+}
+
+Scene hazy_scene(double altitude_km, double sun_elevation_deg) {
+  Scene scene = clear_scene(altitude_km, sun_elevation_deg);
+  scene.atmosphere.constituents["aerosol"] = {
+      ExponentialProfile{1.2},
+      Particles{ParticleCoefficients{0.158, 0.0083}, HenyeyGreenstein{0.76}}};
+  return scene;
+}
+
+std::vector<Direction> spread_directions() {
+  std::vector<Direction> directions;
+  for (double elevation : {80.0, 45.0, 20.0, 8.0, 2.0, -5.0, -20.0, -70.0}) {
+    for (double azimuth : {3.0, 50.0, 110.0, 175.0}) directions.push_back({elevation, azimuth});
+  }
+  return directions;
+}
+
+Problem problem_of(const Scene& scene) {
+  return make_problem(scene, scene.spectrum.wavelengths_nm);
+}
+
+/// |d| of the contract's measure, ascending, over directions and wavelengths.
+std::vector<double> differences(const Samples& found, const Samples& expected) {
+  std::vector<double> all = relative_differences(found, expected);
+  for (double& d : all) d = std::abs(d);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+double share(const std::vector<double>& sorted, double quantile) {
+  return sorted[static_cast<std::size_t>(quantile * static_cast<double>(sorted.size()))];
+}
+void print(const char* what, const std::vector<double>& d) {
+  std::printf("%s: median %.2e, 95 %% %.2e, largest %.2e\n", what, share(d, 0.5),
+              share(d, 0.95), d.back());
+}
+
+Samples by_reference(MomentReference& reference, const Scene& scene,
+                     const std::vector<Direction>& directions) {
+  Problem problem = problem_of(scene);
+  oracle::Adaptive first(pack<double>(problem), 1e-5);
+  Samples all;
+  for (const Direction& d : directions) {
+    glm::dvec3 view = towards(d.elevation_deg, d.azimuth_deg);
+    oracle::Ray one = first.trace(view);
+    glm::dvec4 more = reference.further_radiance(problem, view);
+    all.emplace_back();
+    for (int w = 0; w < 3; ++w)
+      all.back().push_back(one.inscatter[w] + one.ground[w] + more[w]);
+  }
+  return all;
+}
+
+TEST(Moments, AreWithinAFewPermilleOfManyMomentsInDoubleByDayAndTwoPercentDownToTheEndOfDusk) {
+  MomentReference reference(problem_of(clear_scene(0, 30)), {});
+  std::vector<double> day, dusk;
+  for (double sun : {60.0, 20.0, 3.0, -2.0, -6.0}) {
+    for (double altitude : {0.0, 10.0}) {
+      Scene scene = clear_scene(altitude, sun);
+      auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                           by_reference(reference, scene, spread_directions()));
+      if (sun > 0) day.insert(day.end(), d.begin(), d.end());
+      dusk.insert(dusk.end(), d.begin(), d.end());
+    }
+  }
+  std::sort(day.begin(), day.end());
+  std::sort(dusk.begin(), dusk.end());
+  print("day", day);
+  print("to the end of dusk", dusk);
+  EXPECT_LT(share(day, 0.5), 2e-3);
+  EXPECT_LT(share(day, 0.95), 1e-2);
+  EXPECT_LT(share(dusk, 0.95), 2e-2);
+}
+
+/// The 30 published cases of conservative Rayleigh air between planes, here on a vast planet.
+TEST(Moments, OnAFlatPlanetAreTheDiscreteOrdinates) {
+  Samples found, expected;
+  double worst_flux = 0;
+  nlohmann::json published = oracle::published("discrete_ordinates.json");
+  for (const auto& row : published["cases"]) {
+    for (bool top : {false, true}) {
+      Scene scene;
+      scene.method = chosen("moments");
+      scene.planet.radius_km = 1e6;
+      scene.planet.ground_albedo = row["ground_albedo"].get<double>();
+      scene.atmosphere.thickness_km = 10;
+      scene.atmosphere.constituents.clear();
+      scene.atmosphere.constituents["air"] = {
+          UniformProfile{}, Molecules{ScatteringCoefficient{row["tau"].get<double>() / 10}}};
+      scene.spectrum = {{550}, Colour::channels};
+      scene.sun.irradiance = Spectrum{1.0};
+      scene.sun.elevation_deg = 90 - row["sun_zenith_deg"].get<double>();
+      scene.camera.altitude_km = top ? 10 : 0;
+      std::vector<Direction> directions;
+      for (const auto& d : row["rows"]) {
+        double zenith = d[0];
+        directions.push_back({top ? zenith - 90 : 90 - zenith, d[1].get<double>()});
+        expected.push_back({d[top ? 3 : 2].get<double>()});
+      }
+      Radiances radiances = device().radiance(scene, directions, true);
+      found.insert(found.end(), radiances.radiance.begin(), radiances.radiance.end());
+      double flux = row[top ? "diffuse_up_top" : "diffuse_down_ground"];
+      const auto& fluxes = *radiances.irradiance;
+      double got = top ? fluxes.diffuse_up[0] : fluxes.diffuse_down[0];
+      worst_flux = std::max(worst_flux, std::abs(got / flux - 1));
+    }
+  }
+  auto d = differences(found, expected);
+  print("discrete ordinates", d);
+  std::printf("worst flux %.2e\n", worst_flux);
+  EXPECT_LT(share(d, 0.5), 1e-3);
+  EXPECT_LT(share(d, 0.95), 4e-3);
+  EXPECT_LT(worst_flux, 5e-3);
+}
+
+/// Straight up, order two is an integral over the vertical of order one from all directions,
+/// which the adaptive quadrature gives.
+std::vector<double> second_order_in_the_zenith(const Scene& scene) {
+  Problem problem = problem_of(scene);
+  Physics<double> p = pack<double>(problem);
+  GaussRule along = gauss_legendre(6), zenith = gauss_legendre(8);
+  constexpr int azimuths = 8;
+  constexpr double pi = std::numbers::pi;
+  std::vector<double> sum(3, 0.0);
+  double column[Physics<double>::MEDIA_SIZE], density[Physics<double>::MEDIA_SIZE];
+  glm::dvec4 phase[Physics<double>::MEDIA_GROUPS_SIZE];
+  auto cuts = p.cuts_of(0, 1, problem.thickness_km);
+  for (int k = 0; k < 6; ++k) {
+    auto node = p.ray_node(cuts, along.nodes[k], along.weights[k]);
+    p.columns_along(0, 1, node.t_km, column);
+    p.densities(node.t_km, density);
+    glm::dvec4 seen = p.transmittance_of(column, 0) * node.width_km;
+    problem.camera.altitude_km = node.t_km;
+    oracle::Adaptive first(pack<double>(problem), 1e-3);
+    for (int j = 0; j < 16; ++j) {
+      auto ring = p.zenith_node(node.t_km, j >= 8, zenith.nodes[j % 8], zenith.weights[j % 8]);
+      for (int a = 0; a < azimuths; ++a) {
+        double azimuth = pi * (a + 0.5) / azimuths, sine = std::sqrt(1 - ring.mu * ring.mu);
+        glm::dvec3 from(sine * std::sin(azimuth), sine * std::cos(azimuth), ring.mu);
+        oracle::Ray light = first.trace(from);
+        p.scattering_towards(p.scattering_angle(from, glm::dvec3(0, 0, 1)), phase);
+        for (int w = 0; w < 3; ++w) {
+          double source = 0;
+          for (int c = 0; c < p.MEDIA; ++c) {
+            source += density[c] * phase[c * Physics<double>::GROUPS_SIZE][w];
+          }
+          sum[w] += source * seen[w] * (light.inscatter[w] + light.ground[w]) * ring.weight *
+                    2 * pi / azimuths;
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(Moments, OfOrderTwoInTheZenithAreTheIntegralOfOrderOne) {
+  for (double sun : {40.0, 5.0}) {
+    Scene scene = clear_scene(0, sun);
+    scene.atmosphere.constituents.erase("aerosol");  // a peak would need a finer rule
+    scene.method.scattering_orders = 2;
+    std::vector<double> two = device().radiance(scene, {{90, 0}}, false).radiance[0];
+    scene.method.scattering_orders = 1;
+    std::vector<double> one = device().radiance(scene, {{90, 0}}, false).radiance[0];
+    std::vector<double> expected = second_order_in_the_zenith(scene);
+    for (int w = 0; w < 3; ++w) {
+      EXPECT_NEAR(two[w] - one[w], expected[w], 0.006 * expected[w]) << "sun " << sun;
+    }
+  }
+}
+
+TEST(Moments, OfOrderOneAreTheMarch) {
+  Scene scene = clear_scene(0, 8), march = scene;
+  march.method = chosen("raymarch");
+  scene.method.scattering_orders = march.method.scattering_orders = 1;
+  EXPECT_EQ(device().radiance(scene, spread_directions(), false).radiance,
+            device().radiance(march, spread_directions(), false).radiance);
+}
+
+TEST(Moments, GrowByEveryOrderTowardsAllOfThem) {
+  Scene scene = hazy_scene(0, 25);
+  std::vector<double> before(3, 0.0), last_step(3, 1e9);
+  for (int orders = 1; orders <= 6; ++orders) {
+    scene.method.scattering_orders = orders;
+    std::vector<double> now = device().radiance(scene, {{30, 120}}, false).radiance[0];
+    for (int w = 0; w < 3; ++w) {
+      EXPECT_GT(now[w], before[w]);
+      EXPECT_LT(now[w] - before[w], last_step[w]);
+      last_step[w] = now[w] - before[w];
+    }
+    before = now;
+  }
+  scene.method.scattering_orders.reset();
+  std::vector<double> all = device().radiance(scene, {{30, 120}}, false).radiance[0];
+  for (int w = 0; w < 3; ++w) EXPECT_NEAR(all[w], before[w], 0.04 * all[w]);
+}
+
+TEST(Moments, ComeCloserToTheSolutionWithTheirDegreeInHaze) {
+  Scene scene = hazy_scene(0, 20);
+  ReferenceSizes sizes{.degree = 8,
+                       .altitudes = 8,
+                       .suns = 14,
+                       .up = 12,
+                       .down = 6,
+                       .azimuths = 10,
+                       .steps = 8,
+                       .orders = 4};
+  MomentReference reference(problem_of(scene), sizes);
+  Samples expected = by_reference(reference, scene, spread_directions());
+  std::vector<double> error;
+  for (int degree : {2, 4, 6}) {
+    scene.method = chosen("moments", {{"degree", degree},
+                                      {"suns", 14},
+                                      {"directions", 12},
+                                      {"azimuths", 10},
+                                      {"steps", 8},
+                                      {"orders", 4}});
+    auto found = device().radiance(scene, spread_directions(), false).radiance;
+    auto d = differences(found, expected);
+    print("haze", d);
+    error.push_back(measure_error(found, expected).error);
+  }
+  EXPECT_LT(error[1], 0.85 * error[0]);
+  EXPECT_LT(error[2], 0.85 * error[1]);
+}
+
+/// Values that are apart by more than three standard errors and a hundredth.
+int apart_from_walks(const Scene& scene, const std::vector<Direction>& directions) {
+  Scene walk = scene;
+  walk.method = chosen("path", {{"samples_per_pixel", 4096}});
+  Samples found = device().radiance(scene, directions, false).radiance;
+  Radiances expected = device().radiance(walk, directions, false);
+  int apart = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (int w = 0; w < 3; ++w) {
+      double bound = 3 * (*expected.standard_error)[i][w] + 0.01 * expected.radiance[i][w];
+      apart += std::abs(found[i][w] - expected.radiance[i][w]) > bound;
+    }
+  }
+  return apart;
+}
+
+TEST(Moments, AgreeWithRandomWalksFromGroundToSpace) {
+  for (double altitude : {0.0, 12.0, 400.0}) {
+    std::vector<Direction> directions = spread_directions();
+    if (altitude > 100) directions = {{-19, 20}, {-19.5, 160}, {-22, 60}, {-40, 10}, {-85, 0}};
+    int apart = apart_from_walks(clear_scene(altitude, 35), directions);
+    EXPECT_LE(apart, 1 + static_cast<int>(directions.size()) / 16) << altitude;
+  }
+}
+
+TEST(Moments, AgreeWithRandomWalksUnderANearSun) {
+  Scene scene = clear_scene(0, 15);
+  scene.sun.distance_km = 20000;
+  EXPECT_LE(apart_from_walks(scene, spread_directions()), 3);
+}
+
+TEST(Moments, AgreeWithRandomWalksOnASmallPlanet) {
+  Scene scene = clear_scene(0, 25);
+  scene.planet.radius_km = 400;
+  scene.atmosphere.thickness_km = 60;
+  EXPECT_LE(apart_from_walks(scene, spread_directions()), 3);
+}
+
+TEST(Moments, DoNotDependOnHowTheirWorkIsCutOrWhatIsKept) {
+  Scene scene = hazy_scene(0.5, 4), other = hazy_scene(0.5, 30);
+  scene.sun.disc_samples = other.sun.disc_samples = 3;
+  Engine slicing({.device = "", .longest_dispatch_ms = 1e-2});
+  Radiances sliced = slicing.radiance(scene, spread_directions(), false);
+  device().radiance(other, spread_directions(), false);
+  Radiances whole = device().radiance(scene, spread_directions(), false);
+  Radiances again = device().radiance(scene, spread_directions(), false);
+  EXPECT_EQ(sliced.radiance, whole.radiance);
+  EXPECT_EQ(again.radiance, whole.radiance);
+  EXPECT_EQ(sliced.transmittance, whole.transmittance);
+}
+
+TEST(Moments, ThatNobodyWaitsForLeaveNothingBehind) {
+  Scene scene = hazy_scene(0, 33);
+  Engine engine;
+  Watch late;
+  late.deadline = std::chrono::steady_clock::now() - std::chrono::seconds(1);
+  EXPECT_THROW(engine.radiance(scene, spread_directions(), false, late), Cancelled);
+  EXPECT_EQ(engine.radiance(scene, spread_directions(), false).radiance,
+            device().radiance(scene, spread_directions(), false).radiance);
+}
+
+TEST(Moments, AreFiniteAndNotNegativeInEveryPreset) {
+  for (const Preset& preset : presets()) {
+    Scene scene = read_scene({{"preset", preset.name}, {"method", {{"name", "moments"}}}});
+    std::vector<Direction> directions = spread_directions();
+    directions.push_back({-85, 20});
+    directions.push_back({90, 0});
+    directions.push_back({-90, 0});
+    for (const auto& ray : device().radiance(scene, directions, false).radiance) {
+      for (double value : ray) {
+        EXPECT_TRUE(std::isfinite(value) && value >= 0) << preset.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cyanometer
