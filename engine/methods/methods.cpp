@@ -1,5 +1,6 @@
 // The methods there are.
 #include "engine/methods/bruneton/bruneton.h"
+#include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
 #include "engine/methods/moments/moments.h"
 #include "engine/methods/nishita/nishita.h"
@@ -10,11 +11,8 @@ namespace cyanometer {
 
 const std::vector<MethodDescription>& methods() {
   static const std::vector<MethodDescription> all{
-      nishita_description(),
-      raymarch_description(),
-      bruneton_description(),
-      moments_description(),
-      path_description(),
+      nishita_description(),  raymarch_description(), hillaire_description(),
+      bruneton_description(), moments_description(),  path_description(),
   };
   return all;
 }
@@ -23,6 +21,7 @@ std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));
   all.push_back(make_raymarch(device));
+  all.push_back(make_hillaire(device));
   all.push_back(make_bruneton(device));
   all.push_back(make_moments(device));
   all.push_back(make_path(device));

@@ -234,12 +234,6 @@ Vec4 moment_ratio(Vec4 moment, Vec4 lowest) {
               lowest.w > DARKEST ? moment.w / lowest.w : 0.0);
 }
 
-// What all orders after one add, each being the last times `ratio`.
-Vec4 geometric_tail(Vec4 before, Vec4 last) {
-  Vec4 ratio = clamp(last / max(before, Vec4(DARKEST)), 0.0, 0.98);
-  return ratio / (1.0 - ratio);
-}
-
 // --- The sky of a camera --------------------------------------------------------------------------------
 // What is scattered more than once is smooth in direction: a table over elevation, dense about the horizon,
 // and azimuth from the sun's axis, one for rays that meet the ground and one for those that don't.

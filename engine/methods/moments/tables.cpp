@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/methods/moments/grid.h"
+#include "spirv/moments_close.spv.h"
 #include "spirv/moments_first.spv.h"
 #include "spirv/moments_next.spv.h"
 #include "spirv/moments_project.spv.h"
@@ -20,7 +21,7 @@ using Grid = MomentTables::Grid;
 struct Push {
   Grid grid;
   std::int32_t fine_altitudes, up, down, azimuths, steps, first_steps, first, end,
-      first_azimuth, end_azimuth, first_altitude, last, tail;
+      first_azimuth, end_azimuth, first_altitude, tail;
 };
 struct RefinePush {
   MomentSolver::Axis axis;
@@ -80,19 +81,16 @@ class Solution {
     }
   }
 
-  void project(const vulkan::Kernel& kernel, bool last) {
-    Push all = push();
-    all.last = last;
-    all.tail = last && settings_.tail;
-    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, all);
+  void project(const vulkan::Kernel& kernel) {
+    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, push());
   }
 
-  void refine_altitudes(MomentSolver& solver) {
-    int table = table_values(grid_.altitudes);
+  void refine_altitudes(MomentSolver& solver, int table) {
     solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
-                  {0, 2 * table, grid_.altitudes, finer_altitudes(grid_.altitudes),
+                  {table, fine_table(), grid_.altitudes, finer_altitudes(grid_.altitudes),
                    grid_.suns * slots() * groups_, 0});
   }
+  void refine_order(MomentSolver& solver) { refine_altitudes(solver, 0); }
 
   void trace_next_order(const vulkan::Kernel& rows, const vulkan::Kernel& next) {
     for (int first = 0; first < grid_.altitudes; first += rows_at_once_) {
@@ -106,14 +104,15 @@ class Solution {
   }
 
   /// The sum, as skies read it.
-  void finish(MomentSolver& solver) {
-    refine_altitudes(solver);
-    int fine_altitudes = tables_.fine_altitudes;
-    solver.refine(work_, tracer_, scene_, moments_, tables_.moments, fine_altitudes,
-                  {2 * table_values(grid_.altitudes), 0, grid_.suns, tables_.fine_suns,
-                   slots() * groups_, 0});
+  void finish(const vulkan::Kernel& close, MomentSolver& solver) {
+    run(close, (grid_.altitudes + 1) * grid_.suns * groups_, 2 * slots(), push());
+    int sum = table_values(grid_.altitudes);
+    refine_altitudes(solver, sum);
+    solver.refine(
+        work_, tracer_, scene_, moments_, tables_.moments, tables_.fine_altitudes,
+        {fine_table(), 0, grid_.suns, tables_.fine_suns, slots() * groups_, 0});
     solver.refine(work_, tracer_, scene_, moments_, tables_.moments, 1,
-                  {grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
+                  {sum + grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
                    grid_.suns, tables_.fine_suns, groups_, 0});
     work_.submit();
   }
@@ -144,9 +143,11 @@ class Solution {
   int table_values(int altitudes) const {
     return (altitudes * slots() + 1) * settings_.suns * groups_;
   }
+  int fine_table() const {
+    return 2 * table_values(grid_.altitudes) + (grid_.altitudes + 1) * grid_.suns * groups_;
+  }
   std::int64_t moment_values() const {
-    return 2 * table_values(settings_.altitudes) +
-           table_values(finer_altitudes(settings_.altitudes));
+    return fine_table() + table_values(finer_altitudes(grid_.altitudes));
   }
 
   Push push() const {
@@ -162,8 +163,7 @@ class Solution {
             0,
             settings_.azimuths,
             0,
-            false,
-            false};
+            settings_.tail};
   }
 
   void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
@@ -222,6 +222,7 @@ MomentSolver::MomentSolver(vulkan::Device& device)
       project_(device, moments_project_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       rows_(device, moments_rows_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       next_(device, moments_next_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      close_(device, moments_close_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
 
 std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
@@ -234,13 +235,13 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   Solution solution(tracer, scene, settings, series, *tables);
   solution.trace_rays(rays_);
   solution.trace_first_order(first_);
-  solution.project(project_, settings.orders == 1);
+  solution.project(project_);
   for (int order = 2; order <= settings.orders; ++order) {
-    solution.refine_altitudes(*this);
+    solution.refine_order(*this);
     solution.trace_next_order(rows_, next_);
-    solution.project(project_, order == settings.orders);
+    solution.project(project_);
   }
-  solution.finish(*this);
+  solution.finish(close_, *this);
   return tables;
 }
 
