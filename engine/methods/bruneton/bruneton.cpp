@@ -154,7 +154,9 @@ MethodDescription describe() {
                  "The source is interpolated by cubics on a grid so many times finer in each "
                  "coordinate, before it is read linearly; 1 leaves that out.",
                  1, 6, 2),
-           nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 24),
+           nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 20),
+           nodes("view_samples", "View samples", "Of a path that is gathered for the view.", 2,
+                 256, 64),
            nodes("view_nodes", "View nodes",
                  "Gauss nodes on each smooth piece of a path in the first order.", 1,
                  Physics<float>::MOST_GAUSS_NODES, 6),

@@ -119,10 +119,10 @@ std::vector<double> all_suns(P& p, const P::ScatteringGrid& grid) {
   return suns;
 }
 
-/// Directions of a table for one camera: it is cheap, so that it can be fine.
-void refine_directions(P::ScatteringGrid& grid) {
-  grid.zeniths = std::max(grid.zeniths, 128);
-  grid.azimuths = std::max(grid.azimuths, 33);
+/// A table for one camera is cheap, so that its directions can be dense.
+void refine_directions(P::ScatteringGrid& grid, int zeniths, int azimuths) {
+  grid.zeniths = std::max(grid.zeniths, zeniths);
+  grid.azimuths = std::max(grid.azimuths, azimuths);
 }
 
 int degree_of(const Setup& setup) { return setup.refinement > 1 ? 3 : 1; }
@@ -140,6 +140,7 @@ Setup::Setup(const MethodOptions& options) {
   source_azimuths = option("source_azimuths");
   refinement = option("refinement");
   cells = option("samples");
+  view_cells = option("view_samples");
   view_nodes = option("view_nodes");
   mapping = option("mapping");
   two_sided = option("horizon") != 0;
@@ -171,7 +172,7 @@ Rays all_rays(const Problem& problem, const Setup& setup) {
 Rays rays_from(const Problem& problem, const Setup& setup, double altitude_km, double mu_s) {
   P p = pack<double>(problem);
   P::ScatteringGrid grid = grid_of(problem, setup);
-  refine_directions(grid);
+  refine_directions(grid, 128, 33);
   grid.altitudes = 1;
   grid.suns = 1;
   return rays_at(p, grid, {altitude_km}, {mu_s}, degree_of(setup));
@@ -180,7 +181,7 @@ Rays rays_from(const Problem& problem, const Setup& setup, double altitude_km, d
 Rays rays_from_space(const Problem& problem, const Setup& setup) {
   P p = pack<double>(problem);
   P::ScatteringGrid grid = grid_of(problem, setup);
-  refine_directions(grid);
+  refine_directions(grid, 96, 25);
   grid.altitudes = 1;
   grid.suns = 2 * grid.suns;
   grid.highest_mu = 0;

@@ -19,6 +19,7 @@ struct Setup {
   int source_zeniths, source_azimuths;     ///< of the source's directions
   int refinement;                          ///< of the source in each coordinate, for reading
   int cells;                               ///< of a path, in orders from the second on
+  int view_cells;                          ///< of a path that is gathered for the view
   int view_nodes;                          ///< on each piece of a path, in the first order
   int mapping;
   bool two_sided;

@@ -209,9 +209,8 @@ struct TableMaker::Work {
   }
 };
 
-UploadedRays TableMaker::cut(const Work& work, const Rays& rays) {
+UploadedRays TableMaker::cut(const Work& work, const Rays& rays, int cells) {
   const UploadedScene& scene = work.scene;
-  int cells = work.setup.cells;
   expect_few_rounds(cells, 4 * scene.density_iterations());
   UploadedRays uploaded(work.tracer.device, rays, source_grid(scene.problem(), work.setup),
                         cells, scene.groups());
@@ -343,7 +342,7 @@ std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
   vulkan::Device& device = work.tracer.device;
   const Problem& problem = work.scene.problem();
   int groups = work.scene.groups();
-  UploadedRays rays = cut(work, all_rays(problem, work.setup));
+  UploadedRays rays = cut(work, all_rays(problem, work.setup), work.setup.cells);
   const ScatteringGrid grid = source_grid(problem, work.setup);
   vulkan::Buffer radiance = scattering_buffer(device, rays.rays, groups);
   auto tables = std::make_shared<SourceTables>(device, grid, groups);
@@ -376,7 +375,8 @@ std::shared_ptr<const ViewTable> TableMaker::make_view(Work work) {
               : in_space                ? rays_from_space(problem, work.setup)
                          : rays_from(problem, work.setup, problem.camera.altitude_km,
                                      problem.sun_direction[2]);
-  UploadedRays uploaded = cut(work, rays);
+  UploadedRays uploaded =
+      cut(work, rays, work.setup.gathered_view ? work.setup.view_cells : work.setup.cells);
   vulkan::Buffer values = scattering_buffer(work.tracer.device, rays, work.scene.groups());
   gather(work, uploaded, *tables, Leave::view_without, values);
   return std::make_shared<ViewTable>(std::move(uploaded), std::move(values));
@@ -388,7 +388,7 @@ std::shared_ptr<const SingleTable> TableMaker::make_single(Work work) {
   bool separate = work.setup.first == Setup::First::separate;
   expect_few_rounds(work.setup.cells,
                     work.scene.density_iterations() + 2 * (media + work.scene.profile_nodes()));
-  UploadedRays rays = cut(work, all_rays(work.scene.problem(), work.setup));
+  UploadedRays rays = cut(work, all_rays(work.scene.problem(), work.setup), work.setup.cells);
   vulkan::Buffer values =
       scattering_buffer(device, rays.rays, separate ? media * groups : groups);
   // Four values of one wavelength in the room of a group's.
@@ -412,7 +412,7 @@ std::shared_ptr<const SourceTables> TableMaker::source(Tracer& tracer,
 std::shared_ptr<const ViewTable> TableMaker::view(Tracer& tracer, const UploadedScene& scene,
                                                   const Setup& setup) {
   const Problem& problem = scene.problem();
-  std::string key = "bruneton view ";
+  std::string key = "bruneton view " + std::to_string(setup.view_cells) + " ";
   if (setup.gathered_view) {
     bool in_space = problem.camera.altitude_km > problem.thickness_km;
     std::array<double, 2> place{problem.camera.altitude_km, problem.sun_direction[2]};

@@ -84,7 +84,7 @@ class TableMaker {
   std::shared_ptr<const SourceTables> make_source(Work work);
   std::shared_ptr<const ViewTable> make_view(Work work);
   std::shared_ptr<const SingleTable> make_single(Work work);
-  UploadedRays cut(const Work& work, const Rays& rays);
+  UploadedRays cut(const Work& work, const Rays& rays, int cells);
   void find_first_order(const Work& work, const UploadedRays& rays, const vulkan::Buffer& to);
   void find_source(const Work& work, const UploadedRays& rays, const vulkan::Buffer& radiance,
                    const vulkan::Buffer& to);
