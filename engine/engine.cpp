@@ -19,6 +19,8 @@ namespace cyanometer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+/// Rays on which a plan's errors are measured.
+constexpr int probes = 256;
 using Samples = std::vector<std::vector<double>>;
 
 double ms_since(Clock::time_point start) {
@@ -31,10 +33,10 @@ glm::dvec3 unit_vector(const Direction& d) {
           std::sin(elevation)};
 }
 
-/// Some 256 of the frame's rays, one from each cell of an even grid, off its centre so that no
-/// row or column of the picture is looked at twice as often as another.
-std::vector<glm::dvec3> probe_directions(Physics<double>& camera) {
-  constexpr int side = 16;
+/// Some of the frame's rays, one from each cell of an even grid, off its centre so that no row
+/// or column of the picture is looked at twice as often as another.
+std::vector<glm::dvec3> stratified_rays(Physics<double>& camera, int count) {
+  int side = static_cast<int>(std::lround(std::sqrt(count)));
   int width = camera.scene.width, height = camera.scene.height;
   int columns = std::min(side, width), rows = std::min(side, height);
   std::vector<glm::dvec3> directions;
@@ -64,6 +66,12 @@ Samples in_error_channels(const Samples& radiance, const Scene& scene, const Out
     }
   }
   return result;
+}
+
+/// The scene's wavelengths, or a few where it leaves the choice.
+std::vector<double> some_wavelengths_of(const Scene& scene) {
+  return scene.spectrum.wavelengths_nm.empty() ? colour_wavelengths(4)
+                                               : scene.spectrum.wavelengths_nm;
 }
 
 std::string describe(const Scene& scene, const Plan& plan) {
@@ -222,19 +230,13 @@ struct Engine::Parts {
       Traced traced = trace_directions(problem, directions, name, options, quiet);
       return in_error_channels(traced.radiance, scene, make_output(scene, wavelengths));
     };
-    return make_plan({scene, rays, scene.sun.disc_samples,
-                      static_cast<int>(scene.atmosphere.constituents.size()), probe});
+    return make_plan({scene, rays, methods, probe});
   }
 
   Plan plan_frame(const Scene& scene, const Watch& watch) {
-    Physics<double> camera = pack<double>(make_problem(scene, colour_wavelengths_of(scene)));
+    Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
     double rays = static_cast<double>(scene.image.width) * scene.image.height;
-    return plan(scene, probe_directions(camera), rays, watch);
-  }
-
-  static std::vector<double> colour_wavelengths_of(const Scene& scene) {
-    return scene.spectrum.wavelengths_nm.empty() ? colour_wavelengths(4)
-                                                 : scene.spectrum.wavelengths_nm;
+    return plan(scene, stratified_rays(camera, probes), rays, watch);
   }
 
   void trace_frame(const Problem& problem, const Plan& plan,
@@ -302,9 +304,12 @@ Frame Engine::render(const Scene& scene, const Watch& watch) {
       encoding(scene.image.format).displayed);
   frame.prepare_ms = ms_since(start);
   auto rendering = Clock::now();
+  double tables_before = parts_->tables.making_ms();
   parts_->trace_frame(problem, frame.plan, groups, watch, frame, *store);
+  double tables_ms = parts_->tables.making_ms() - tables_before;
   parts_->display(scene, output, watch, frame, *store);
-  frame.render_ms = ms_since(rendering);
+  frame.prepare_ms += tables_ms;
+  frame.render_ms = ms_since(rendering) - tables_ms;
   bool rgb = scene.image.channels == Channels::rgb;
   for (std::size_t g = rgb ? 0 : 1; g < groups.size(); ++g) {
     for (std::size_t k = 0; k < groups[g].channels.size(); ++k) {
@@ -358,8 +363,8 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   spectral.spectrum.colour = Colour::channels;
   std::vector<glm::dvec3> rays;
   for (const Direction& d : directions) rays.push_back(unit_vector(d));
-  std::vector<glm::dvec3> probe(rays.begin(),
-                                rays.begin() + std::min<std::ptrdiff_t>(256, std::ssize(rays)));
+  std::vector<glm::dvec3> probe(
+      rays.begin(), rays.begin() + std::min<std::ptrdiff_t>(probes, std::ssize(rays)));
   Radiances result;
   if (scene.spectrum.wavelengths_nm.empty()) {
     spectral.spectrum.wavelengths_nm = colour_wavelengths(16);
@@ -370,6 +375,7 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   std::vector<double> sunlight = make_output(scene, result.wavelengths_nm).irradiance;
   result.prepare_ms = ms_since(start);
   auto rendering = Clock::now();
+  double tables_before = parts_->tables.making_ms();
   auto trace = [&](const std::vector<glm::dvec3>& towards) {
     return parts_->trace_directions(problem, towards, result.plan.method, result.plan.options,
                                     watch);
@@ -397,8 +403,22 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
     scale_by(sunlight, fluxes);
     result.irradiance = {fluxes[0], fluxes[1], fluxes[2]};
   }
-  result.render_ms = ms_since(rendering);
+  double tables_ms = parts_->tables.making_ms() - tables_before;
+  result.prepare_ms += tables_ms;
+  result.render_ms = ms_since(rendering) - tables_ms;
   return result;
+}
+
+TableUse Engine::tables() const { return {parts_->tables.bytes(), parts_->tables.making_ms()}; }
+
+std::vector<Direction> sample_directions(const Scene& scene, int count) {
+  Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
+  std::vector<Direction> directions;
+  for (const glm::dvec3& ray : stratified_rays(camera, count)) {
+    directions.push_back({glm::degrees(std::atan2(ray.z, std::hypot(ray.x, ray.y))),
+                          glm::degrees(std::atan2(ray.x, ray.y))});
+  }
+  return directions;
 }
 
 void Engine::warm() {

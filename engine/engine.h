@@ -67,7 +67,8 @@ struct Frame {
   const unsigned char* rgbx = nullptr;  ///< 4 bytes a pixel, sRGB; null where not asked for
   double exposure_ev = 0;
   double white_luminance = 0;  ///< cd/m^2 of 1.0, 0 where the planes are radiances
-  double render_ms = 0, prepare_ms = 0;
+  double prepare_ms = 0;  ///< plan and tables
+  double render_ms = 0;   ///< the rest of the time on the device
   Plan plan;
   std::string description;  ///< JSON: canonical scene, method, error, version: makes it again
   std::shared_ptr<void> storage;  ///< keeps the pixels alive
@@ -86,8 +87,15 @@ struct Radiances {
     std::vector<double> direct, diffuse_down, diffuse_up;  ///< by wavelength, horizontal plane
   };
   std::optional<Irradiance> irradiance;
-  double prepare_ms = 0, render_ms = 0;
+  double prepare_ms = 0;  ///< plan and tables
+  double render_ms = 0;   ///< the rest of the time on the device
   Plan plan;
+};
+
+/// Tables kept between requests.
+struct TableUse {
+  std::size_t bytes = 0;  ///< held now
+  double making_ms = 0;   ///< spent on all that were made so far
 };
 
 /// One thing a method can be told, as data: the schema, the page and the documentation read it.
@@ -102,6 +110,8 @@ struct MethodDescription {
   bool random = false;              ///< its values have standard errors
   std::vector<std::string> limits;  ///< where it is not valid, in words
   std::vector<MethodOption> options;
+  /// Settings of all options worth choosing from, cheapest first; `auto` looks at no others.
+  std::vector<std::map<std::string, double>> ladder = {};
 };
 /// All methods there are, in the order of API.md; `auto` is not one of them.
 const std::vector<MethodDescription>& methods();
@@ -132,6 +142,7 @@ class Engine {
 
   /// The device in use, as it enters an ETag and the logs.
   const DeviceDescription& device() const;
+  TableUse tables() const;
   /// Dispatches every pipeline once, so that the first request finds them compiled.
   void warm();
 
@@ -139,6 +150,10 @@ class Engine {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// Some `count` of the frame's rays, those of an even grid's cells that meet air or ground, as
+/// errors are measured on.
+std::vector<Direction> sample_directions(const Scene& scene, int count);
 
 /// All Vulkan devices of this machine, and which one would be used and why.
 std::vector<DeviceDescription> list_devices(const EngineOptions& options = {});

@@ -28,6 +28,10 @@ layout(constant_id = 6) const int GROUPS = 1;      // wavelengths come in groups
 layout(constant_id = 7) const int PROJECTION = 0;
 layout(constant_id = 8) const bool NEAR_SUN = false;
 layout(constant_id = 9) const bool MANY_SUNS = false;  // more than one point of the disc
+// Software devices run both sides of a branch: a kernel that is told that no phase function is tabulated
+// evaluates the others in a third of the time. Apart from the scene's constants, so that kernels need not
+// set it.
+layout(constant_id = 31) const bool PHASE_TABLES = true;
 const int MEDIA = EXPONENTIALS + TENTS + QUADRATICS + UNIFORMS + TABLES;
 const int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS;
 #define GROUPS_SIZE GROUPS

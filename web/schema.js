@@ -9,7 +9,8 @@ import { isObject } from './paths.js';
 const FIRST = ['elevation_deg', 'azimuth_deg', 'angular_diameter_deg', 'altitude_km', 'heading_deg',
                'pitch_deg', 'fov_deg', 'exposure_ev', 'tone_map', 'name', 'optical_depth',
                'visibility_km', 'scattering_per_km', 'absorption_per_km', 'refractive_index',
-               'pressure_pa', 'temperature_k', 'value', 'latitude_deg', 'longitude_deg'];
+               'pressure_pa', 'temperature_k', 'value', 'latitude_deg', 'longitude_deg',
+               'sidereal_time_deg'];
 const LAST = ['phase', 'profile', 'disc_samples', 'distance_km', 'place'];
 const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) - FIRST.length
                                              : LAST.indexOf(name) + 1);

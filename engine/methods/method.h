@@ -51,6 +51,10 @@ class Method {
  public:
   virtual ~Method() = default;
   virtual const MethodDescription& description() const = 0;
+  /// What so many rays cost, tables included, in evaluations as the pacer counts them; roughly,
+  /// for plans.
+  virtual double evaluations(const Problem& problem, const MethodOptions& options,
+                             double rays) const = 0;
   /// Rays that are traced together, given the scene and the pace of the device.
   virtual int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                            const Pacer& pacer) const = 0;

@@ -1,5 +1,7 @@
 #include "engine/methods/table_cache.h"
 
+#include <chrono>
+
 namespace cyanometer {
 
 std::shared_ptr<const Tables> TableCache::find_or_make(
@@ -8,7 +10,7 @@ std::shared_ptr<const Tables> TableCache::find_or_make(
     entries_.splice(entries_.begin(), entries_, place->second);
     return place->second->tables;
   }
-  std::shared_ptr<const Tables> tables = make();
+  std::shared_ptr<const Tables> tables = timed(make);
   std::size_t bytes = tables->bytes() + key.size();
   if (bytes > most_bytes_) return tables;
   make_room(bytes);
@@ -16,6 +18,22 @@ std::shared_ptr<const Tables> TableCache::find_or_make(
   places_[key] = entries_.begin();
   bytes_ += bytes;
   return tables;
+}
+
+std::shared_ptr<const Tables> TableCache::timed(
+    const std::function<std::shared_ptr<const Tables>()>& make) {
+  struct Stopwatch {
+    TableCache& cache;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    explicit Stopwatch(TableCache& c) : cache(c) { ++cache.making_; }
+    ~Stopwatch() {
+      if (--cache.making_ > 0) return;
+      cache.making_ms_ +=
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+              .count();
+    }
+  } stopwatch(*this);
+  return make();
 }
 
 void TableCache::make_room(std::size_t bytes) {

@@ -34,6 +34,8 @@ class TableCache {
   }
 
   std::size_t bytes() const { return bytes_; }
+  /// Time spent in making tables so far, ms.
+  double making_ms() const { return making_ms_; }
   std::size_t count() const { return entries_.size(); }
 
  private:
@@ -45,10 +47,14 @@ class TableCache {
 
   std::shared_ptr<const Tables> find_or_make(
       const std::string& key, const std::function<std::shared_ptr<const Tables>()>& make);
+  std::shared_ptr<const Tables> timed(
+      const std::function<std::shared_ptr<const Tables>()>& make);
   void make_room(std::size_t bytes);
 
   std::size_t most_bytes_;
   std::size_t bytes_ = 0;
+  double making_ms_ = 0;
+  int making_ = 0;  ///< tables may be made from other tables
   Entries entries_;
   std::unordered_map<std::string, Entries::iterator> places_;
 };

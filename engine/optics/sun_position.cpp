@@ -238,4 +238,9 @@ SunPosition sun_position(double latitude_deg, double longitude_deg, std::string_
   return {(elevation - parallax) / deg, azimuth < 0 ? azimuth + 360 : azimuth};
 }
 
+double sidereal_time_deg(std::string_view rfc3339) {
+  const double angle = std::fmod(sidereal_time(days_since_j2000(rfc3339)) / deg, 360);
+  return angle < 0 ? angle + 360 : angle;
+}
+
 }  // namespace cyanometer

@@ -1,4 +1,5 @@
-// Where the sun stands in the sky of the Earth.
+// Where the sun stands in the sky of the Earth, and how far the Earth has turned under the
+// stars.
 #pragma once
 
 #include <string_view>
@@ -21,5 +22,11 @@ struct SunPosition {
 /// Source: J. Meeus, Astronomical Algorithms, 2nd ed. 1998; the Earth's longitude from the
 /// largest terms of VSOP87 (P. Bretagnon and G. Francou, Astron. Astrophys. 202, 309, 1988).
 SunPosition sun_position(double latitude_deg, double longitude_deg, std::string_view rfc3339);
+
+/// Mean sidereal time at Greenwich: the right ascension that is in the meridian 0, 0 to 360
+/// deg.
+/// @throws as `sun_position`
+/// Source: Meeus, eq. 12.4.
+double sidereal_time_deg(std::string_view rfc3339);
 
 }  // namespace cyanometer

@@ -9,10 +9,12 @@
 namespace cyanometer::physics {
 
 using glm::abs;
+using glm::asinh;
 using glm::atan;
 using glm::ceil;
 using glm::clamp;
 using glm::cos;
+using glm::cosh;
 using glm::dot;
 using glm::exp;
 using glm::floor;
@@ -25,6 +27,7 @@ using glm::mix;
 using glm::normalize;
 using glm::pow;
 using glm::sin;
+using glm::sinh;
 using glm::sqrt;
 using glm::tan;
 
@@ -60,7 +63,7 @@ struct Physics {
   static constexpr int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS_SIZE;
   int EXPONENTIALS = 0, TENTS = 0, QUADRATICS = 0, UNIFORMS = 0, TABLES = 0;
   int MEDIA = 0, GROUPS = 1, PROJECTION = PROJECTION_PERSPECTIVE;
-  bool NEAR_SUN = false, MANY_SUNS = false;
+  bool NEAR_SUN = false, MANY_SUNS = false, PHASE_TABLES = true;
 
   // Buffers, in the order of their bindings.
   SceneData scene{};
@@ -78,6 +81,13 @@ struct Physics {
   bool GUIDED = false;
   std::vector<Real> path_guide;
 
+  // Tables, each with its constants.
+  int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
+  std::vector<Vec4> optical_depths;
+  int MULTIPLE_SUNS = 2, MULTIPLE_ALTITUDES = 2, SKY_VIEW_AZIMUTHS = 2, SKY_VIEW_ELEVATIONS = 4;
+  std::vector<Vec4> log_multiple, log_irradiance, sky_view;
+  std::vector<Real> view_columns;
+
   const MediumData& medium(int c) const { return media[c]; }
   Vec4 extinction(int c, int group) const { return spectra[(2 + 3 * c) * GROUPS + group]; }
   Vec4 scattering(int c, int group) const { return spectra[(3 + 3 * c) * GROUPS + group]; }
@@ -85,6 +95,7 @@ struct Physics {
   Vec4 ground_albedo(int group) const { return spectra[group]; }
   Vec4 limb_exponent(int group) const { return spectra[GROUPS + group]; }
   Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
+  Vec4 forward_gain(int, int) const { return Vec4(1); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
 
 // In the order in which they build up.
@@ -99,10 +110,18 @@ struct Physics {
 #include "shaders/physics/camera.glsl"
 #include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
+#include "shaders/tables/optical_depth.glsl"
 #include "shaders/methods/nishita.glsl"
 #include "shaders/methods/moments.glsl"
 #include "shaders/methods/raymarch.glsl"
 #include "shaders/methods/path.glsl"
+#include "shaders/methods/hillaire/coordinates.glsl"
+#include "shaders/methods/hillaire/march.glsl"
+#include "shaders/methods/hillaire/second_order.glsl"
+#include "shaders/methods/hillaire/multiple.glsl"
+#include "shaders/methods/hillaire/view.glsl"
+#include "shaders/methods/hillaire/sky_view.glsl"
+#include "shaders/methods/bruneton/grid.glsl"
   // clang-format on
 };
 

@@ -19,16 +19,13 @@ using TraceProbe = std::function<std::vector<std::vector<double>>(
 
 struct PlanInputs {
   const Scene& scene;
-  double rays = 0;   ///< of the whole request
-  int suns = 1;      ///< points of the disc that light the air
-  int media = 1;     ///< constituents
+  double rays = 0;  ///< of the whole request
+  const std::vector<std::unique_ptr<Method>>& methods;
   TraceProbe probe;  ///< the same few rays each time
 };
 
+/// Every error is measured on the probe's rays against the best solution there is, at the
+/// finest setting of its ladder, whose own error is told from the setting before.
 Plan make_plan(const PlanInputs& inputs);
-
-/// Bound on the share of the light that has met more than one event, for a method that leaves
-/// it out.
-double multiple_scattering_bound(const Scene& scene);
 
 }  // namespace cyanometer

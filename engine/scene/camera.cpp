@@ -1,4 +1,5 @@
 // The camera.
+#include "engine/optics/sun_position.h"
 #include "engine/scene/members.h"
 
 namespace cyanometer {
@@ -45,6 +46,14 @@ ObjectOf<Camera> camera_members() {
                        return read.place ? read.place->longitude_deg : 0;
                      })
           .slider(-180, 180, 0.1),
+      Member("sidereal_time_deg", &Camera::sidereal_time_deg, number(-360, 360),
+             "Sidereal time",
+             "How far the planet has turned under the stars, at longitude 0 (15 deg an hour).")
+          .otherwise("that of sun.place, else 0",
+                     [](const Camera&, const Reading& read) {
+                       return read.place ? sidereal_time_deg(read.place->time) : 0;
+                     })
+          .slider(0, 360, 0.1),
       Member("projection", &Camera::projection,
              choice<Projection>({{"perspective", Projection::perspective},
                                  {"fisheye", Projection::fisheye},

@@ -216,6 +216,7 @@ struct Camera {
   double altitude_km = 0.002;
   double latitude_deg = 0;
   double longitude_deg = 0;
+  double sidereal_time_deg = 0;  ///< at longitude 0; already that of `sun.place`
   double heading_deg = 0;
   double pitch_deg = 10;
   double roll_deg = 0;

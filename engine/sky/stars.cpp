@@ -47,16 +47,6 @@ std::vector<Star> make_catalogue() {
   return stars;
 }
 
-/// Rows east, north, up of a place, in the planet's frame.
-glm::dmat3 planet_to_local(const Camera& camera) {
-  double latitude = glm::radians(camera.latitude_deg);
-  double longitude = glm::radians(camera.longitude_deg);
-  glm::dvec3 up(std::cos(latitude) * std::cos(longitude),
-                std::cos(latitude) * std::sin(longitude), std::sin(latitude));
-  glm::dvec3 east(-std::sin(longitude), std::cos(longitude), 0);
-  return glm::transpose(glm::dmat3(east, glm::cross(up, east), up));
-}
-
 }  // namespace
 
 const std::vector<Star>& star_catalogue() {
@@ -70,10 +60,19 @@ double star_irradiance(const Star& star, double wavelength_nm) {
          planck_ratio(wavelength_nm, sun_temperature_k);
 }
 
+glm::dmat3 sky_to_local(const Camera& camera) {
+  double latitude = glm::radians(camera.latitude_deg);
+  double local_time = glm::radians(camera.sidereal_time_deg + camera.longitude_deg);
+  glm::dvec3 up(std::cos(latitude) * std::cos(local_time),
+                std::cos(latitude) * std::sin(local_time), std::sin(latitude));
+  glm::dvec3 east(-std::sin(local_time), std::cos(local_time), 0);
+  return glm::transpose(glm::dmat3(east, glm::cross(up, east), up));
+}
+
 StarPixels star_pixels(const Problem& problem, Physics<double>& camera) {
   std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
   std::map<int, std::vector<glm::vec4>> lit;
-  glm::dmat3 turn = planet_to_local(problem.camera);
+  glm::dmat3 turn = sky_to_local(problem.camera);
   for (const Star& star : star_catalogue()) {
     std::optional<int> pixel = pixel_of(camera, turn * star.direction);
     if (!pixel) continue;

@@ -10,7 +10,7 @@
 namespace cyanometer {
 
 struct Star {
-  glm::dvec3 direction;  ///< unit, fixed to the planet: z its axis, x on the meridian 0
+  glm::dvec3 direction;  ///< unit; z is the sky's pole, x the vernal equinox
   double magnitude;      ///< visual
   double temperature_k;  ///< of a black body of the same colour
 };
@@ -21,6 +21,10 @@ const std::vector<Star>& star_catalogue();
 /// Irradiance of a star as a share of the sun's at a wavelength: black bodies of both
 /// temperatures, scaled to the visual magnitudes at 550 nm; the sun as from the Earth, -26.74.
 double star_irradiance(const Star& star, double wavelength_nm);
+
+/// Turns a direction among the stars to x east, y north, z up at the camera's foot point: the
+/// right ascension in its meridian is its sidereal time.
+glm::dmat3 sky_to_local(const Camera& camera);
 
 /// The stars that a frame shows: in ascending order of pixels, each pixel once.
 struct StarPixels {

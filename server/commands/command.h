@@ -47,5 +47,6 @@ void add_devices(CLI::App& app);
 void add_health(CLI::App& app);
 void add_contact_sheet(CLI::App& app);
 void add_schema(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace cyanometer

@@ -183,6 +183,7 @@ struct Cuts {
 };
 
 Real cube_root(Real x) { return x <= 0.0 ? 0.0 : pow(x, 1.0 / 3.0); }
+Real signed_cube_root(Real x) { return x < 0.0 ? -cube_root(-x) : cube_root(x); }
 
 Cuts cuts_of(Real h, Real mu, Real length_km) {
   Cuts cuts;
@@ -190,12 +191,6 @@ Cuts cuts_of(Real h, Real mu, Real length_km) {
   cuts.from = -cube_root(cuts.lowest_km);
   cuts.to = cube_root(length_km - cuts.lowest_km);
   return cuts;
-}
-
-// Distance from the start at the share x of the way.
-Real cut_at(Cuts cuts, Real x) {
-  Real root = cuts.from + (cuts.to - cuts.from) * x;
-  return max(cuts.lowest_km + root * root * root, 0.0);
 }
 
 // Zenith cosine of a ray's direction after the distance t, at the altitude `altitude`.
@@ -237,12 +232,6 @@ Vec4 moment_ratio(Vec4 moment, Vec4 lowest) {
               lowest.y > DARKEST ? moment.y / lowest.y : 0.0,
               lowest.z > DARKEST ? moment.z / lowest.z : 0.0,
               lowest.w > DARKEST ? moment.w / lowest.w : 0.0);
-}
-
-// What all orders after one add, each being the last times `ratio`.
-Vec4 geometric_tail(Vec4 before, Vec4 last) {
-  Vec4 ratio = clamp(last / max(before, Vec4(DARKEST)), 0.0, 0.98);
-  return ratio / (1.0 - ratio);
 }
 
 // --- The sky of a camera --------------------------------------------------------------------------------

@@ -25,11 +25,11 @@ layout(push_constant) uniform Push {
   int up, down;        // directions above and below the horizon
   int azimuths;        // in half a turn
   int steps;           // nodes of a ray
+  int first_steps;     // of order one, on each lit part
   int first, end;      // invocations of this dispatch
   int first_azimuth, end_azimuth;  // of order one in this dispatch
   int first_altitude;              // of the rows there are now
-  int last;            // whether this is the last order: the sum becomes what is read
-  int tail;            // whether all orders after it are added
+  int tail;            // whether all orders after the last are added
 } push;
 
 #define RAYS (push.up + push.down)
@@ -53,12 +53,13 @@ int light_at(int i, int j, int s) {
   return ((i * RAYS + j) * push.grid.suns + s) * ROW_SLOTS * GROUPS;
 }
 
-// Tables: of one order, the same with more altitudes, the sum, and all of it ready to be read. Behind the
-// moments of each lies the ground's diffuse irradiance by sun.
+// Tables: of one order, the sum of all, the logarithms of the lowest moment of the order before, and the
+// first again with more altitudes. Behind the moments of each lies the ground's diffuse irradiance.
 int table_size(int altitudes) { return (altitudes * SLOTS + 1) * push.grid.suns * GROUPS; }
-const int ORDER = 0;
 int sum_table() { return table_size(push.grid.altitudes); }
-int fine_table() { return 2 * table_size(push.grid.altitudes); }
+int before_table() { return 2 * table_size(push.grid.altitudes); }
+int fine_table() { return before_table() + (push.grid.altitudes + 1) * push.grid.suns * GROUPS; }
+int before_at(int i, int s) { return before_table() + (i * push.grid.suns + s) * GROUPS; }
 int moment_at(int i, int s, int slot) { return ((i * push.grid.suns + s) * SLOTS + slot) * GROUPS; }
 int irradiance_at(int altitudes, int s) { return altitudes * push.grid.suns * SLOTS * GROUPS + s * GROUPS; }
 

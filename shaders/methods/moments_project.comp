@@ -2,28 +2,22 @@
 #extension GL_GOOGLE_include_directive : require
 #include "methods/moments_device.glsl"
 
-// What the orders after this one add to it, over it.
-Vec4 beyond(int at, Vec4 lowest) {
-  return push.tail != 0 ? geometric_tail(exp(moments[at]), lowest) : Vec4(0.0);
-}
-
-// Adds an order to the sum; leaves the order, or in the end the sum, as it is read.
-void keep(int at, Vec4 moment[SLOTS]) {
-  Vec4 share = 1.0 + beyond(at, moment[0]);
+// Adds an order to the sum and leaves it as the next one reads it.
+void keep(int i, int s, int g, Vec4 moment[SLOTS]) {
+  int at = moment_at(i, s, 0) + g;
+  moments[before_at(i, s) + g] = moments[at];
   UNROLL for (int n = 0; n < SLOTS; ++n) {
     int sum = sum_table() + at + n * GROUPS;
-    Vec4 total = moments[sum] + moment[n] * share;
-    moments[sum] = total;
-    if (push.last != 0) moment[n] = total;
+    moments[sum] = moments[sum] + moment[n];
+    moments[at + n * GROUPS] = n == 0 ? moment_logarithm(moment[0]) : moment_ratio(moment[n], moment[0]);
   }
-  moments[at] = moment_logarithm(moment[0]);
-  UNROLL for (int n = 1; n < SLOTS; ++n) moments[at + n * GROUPS] = moment_ratio(moment[n], moment[0]);
 }
 
-void keep_irradiance(int at, Vec4 irradiance) {
-  Vec4 total = moments[sum_table() + at] + irradiance * (1.0 + beyond(at, irradiance));
-  moments[sum_table() + at] = total;
-  moments[at] = moment_logarithm(push.last != 0 ? total : irradiance);
+void keep_irradiance(int s, int g, Vec4 irradiance) {
+  int at = irradiance_at(push.grid.altitudes, s) + g;
+  moments[before_at(push.grid.altitudes, s) + g] = moments[at];
+  moments[sum_table() + at] = moments[sum_table() + at] + irradiance;
+  moments[at] = moment_logarithm(irradiance);
 }
 
 // The moments of the light that the rays bring, of one order: one invocation an altitude, a sun and a
@@ -64,6 +58,6 @@ void main() {
     power *= square;
   }
 
-  keep(moment_at(i, s, 0) + g, moment);
-  if (i == 0) keep_irradiance(irradiance_at(push.grid.altitudes, s) + g, irradiance);
+  keep(i, s, g, moment);
+  if (i == 0) keep_irradiance(s, g, irradiance);
 }

@@ -66,19 +66,6 @@ Real end_of_piece(Path path, Light light, Shadow shadow, Real from_km) {
   return end_km;
 }
 
-// Extinction coefficient at an altitude, 1/km, of the wavelength where it is largest.
-Real largest_extinction(Real h) {
-  Real density[MEDIA_SIZE];
-  densities(h, density);
-  Real largest = 0.0;
-  UNROLL for (int group = 0; group < GROUPS; ++group) {
-    Vec4 sum = Vec4(0.0);
-    UNROLL for (int c = 0; c < MEDIA; ++c) sum = sum + extinction(c, group) * density[c];
-    largest = max(max(largest, max(sum.x, sum.y)), max(sum.z, sum.w));
-  }
-  return largest;
-}
-
 // Nodes of a piece: where the low end is the near one, light from beyond some optical depths doesn't
 // arrive.
 StretchedPath nodes_of(Piece piece) {

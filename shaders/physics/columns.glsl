@@ -114,8 +114,10 @@ Real column_upwards(Real h, Real mu, Real length_km, int c) {
   return table_column(h, mu, length_km, c);
 }
 
-// Columns of all constituents over the first `length_km` of a ray that stays in the shell.
-void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
+// Columns of the constituents [first, end) over the first `length_km` of a ray that stays in the shell;
+// 0 for the others.
+void some_columns_along(Real h, Real mu, Real length_km, int first, int end,
+                        OUT_ARRAY(Real, column, MEDIA_SIZE)) {
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
   Real to_lowest_km = min(max(-(scene.planet_radius_km + h) * mu, 0.0), length_km);
   Real low_h = altitude_after(h, mu, to_lowest_km);
@@ -129,9 +131,14 @@ void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDI
     Real part_km = part == 0 ? to_lowest_km : length_km - to_lowest_km;
     if (part_km <= 0.0) continue;
     UNROLL for (int c = 0; c < MEDIA; ++c) {
-      column[c] += column_upwards(low_h, part_mu, part_km, c);
+      if (c >= first && c < end) column[c] += column_upwards(low_h, part_mu, part_km, c);
     }
   }
+}
+
+// Of all constituents.
+void columns_along(Real h, Real mu, Real length_km, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
+  some_columns_along(h, mu, length_km, 0, MEDIA, column);
 }
 
 void columns_to_top(Real h, Real mu, OUT_ARRAY(Real, column, MEDIA_SIZE)) {

@@ -100,13 +100,13 @@ void scattering_towards(ScatteringAngle angle,
     Real same = 0.0;
     if (m.phase == PHASE_HENYEY_GREENSTEIN) same = henyey_greenstein_phase(m.g, angle);
     if (m.phase == PHASE_CORNETTE_SHANKS) same = cornette_shanks_phase(m.g, angle);
-    if (m.phase == PHASE_TABLE) position = phase_position(m, angle);
+    if (PHASE_TABLES && m.phase == PHASE_TABLE) position = phase_position(m, angle);
     UNROLL for (int group = 0; group < GROUPS; ++group) {
       Vec4 phase = Vec4(same);
       if (m.phase == PHASE_RAYLEIGH) {
         phase = rayleigh_phase(depolarisation(c, group), angle.cosine);
       }
-      if (m.phase == PHASE_TABLE) phase = tabulated_phase(position, group);
+      if (PHASE_TABLES && m.phase == PHASE_TABLE) phase = tabulated_phase(position, group);
       scattering_phase[c * GROUPS_SIZE + group] = scattering(c, group) * phase;
     }
   }

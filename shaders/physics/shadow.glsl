@@ -33,6 +33,7 @@ Shadow shadow_on(Path path, Light light, Real altitude) {
   ScatteringAngle angle = scattering_angle(light.direction, path.direction);
   Real m = dot(path.start, light.direction) - radius * ratio;
   Real a = angle.one_minus_cosine * angle.one_plus_cosine - ratio * ratio;
+  if (abs(a) < 1e-12) a = 1e-12;  // along the cone's side; the other end is far away
   Real b = open * r * path.mu - m * angle.cosine;
   Real q = (path.altitude_km - altitude) * (r + radius);
   Real c = open * q - m * m;
@@ -41,7 +42,6 @@ Shadow shadow_on(Path path, Light light, Real altitude) {
   shadow.leave_km = 0.0;
   Real d = b * b - a * c;
   if (d <= 0.0) return shadow;
-  if (abs(a) < 1e-12) a = 1e-12;  // along the cone's side; the other end is far away
   Real root = b > 0.0 ? -b - sqrt(d) : sqrt(d) - b;
   Real low = min(root / a, c / root);
   Real high = max(root / a, c / root);

@@ -25,3 +25,16 @@ void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_S
     inscatter[group] = inscatter[group] + source * light;
   }
 }
+
+// Extinction coefficient at an altitude, 1/km, of the wavelength where it is largest.
+Real largest_extinction(Real h) {
+  Real density[MEDIA_SIZE];
+  densities(h, density);
+  Real largest = 0.0;
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 sum = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) sum = sum + extinction(c, group) * density[c];
+    largest = max(max(largest, max(sum.x, sum.y)), max(sum.z, sum.w));
+  }
+  return largest;
+}

@@ -6,7 +6,6 @@
 #include "engine/gauss_legendre.h"
 #include "engine/physics/pack.h"
 #include "engine/sky/pixel.h"
-#include "engine/sky/stars.h"
 
 namespace cyanometer {
 namespace {
@@ -226,24 +225,6 @@ TEST(Camera, CubeFacesAreInOpenGlsOrder) {
   for (int face = 0; face < 6; ++face) {
     EXPECT_NEAR(glm::distance(camera.pixel_ray(face).direction, faces[face]), 0, 1e-12) << face;
   }
-}
-
-TEST(Stars, AreAsManyAsANakedEyeSees) {
-  const auto& stars = star_catalogue();
-  auto brighter = [&](double magnitude) {
-    return std::count_if(stars.begin(), stars.end(),
-                         [&](const Star& s) { return s.magnitude < magnitude; });
-  };
-  EXPECT_NEAR(static_cast<double>(brighter(6.5)), 8500, 900);
-  EXPECT_NEAR(static_cast<double>(brighter(3)), 150, 40);
-}
-
-TEST(Stars, OfMagnitudeZeroAreFiftyBillionTimesFainterThanTheSun) {
-  Star star{{0, 0, 1}, 0, 5772};
-  EXPECT_NEAR(1 / star_irradiance(star, 550), 4.97e10, 0.02e10);  // 10^(0.4 * 26.74)
-  EXPECT_NEAR(star_irradiance(star, 440), star_irradiance(star, 680), 1e-18);
-  star.temperature_k = 12000;
-  EXPECT_GT(star_irradiance(star, 440), star_irradiance(star, 680));
 }
 
 TEST(GaussLegendre, IntegratesPolynomialsOfDegreeTwoNMinusOneExactly) {

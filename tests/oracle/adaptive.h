@@ -18,6 +18,7 @@ using Values = std::vector<double>;  ///< by wavelength
 /// What one ray shows, per unit irradiance, 1/sr; parallel light from a point.
 struct Ray {
   Values inscatter, ground, transmittance;
+  Values shadow_edge = {};  ///< a km, the jumps of inscatter's integrand at the planet's shadow
 };
 
 class Adaptive {
@@ -30,13 +31,17 @@ class Adaptive {
   Ray trace(const glm::dvec3& direction) {
     P::Path path = p_.path_from_camera(direction);
     path_ = path;
-    Ray ray{Values(lanes(), 0.0), Values(lanes(), 0.0), Values(lanes(), 1.0)};
+    Ray ray{Values(lanes(), 0.0), Values(lanes(), 0.0), Values(lanes(), 1.0),
+            Values(lanes(), 0.0)};
     if (!p_.meets_planet(path)) return ray;
     sun_ = p_.sun_ray(path.start, glm::dvec3(0)).direction;
     p_.scattering_towards(p_.scattering_angle(sun_, direction), scattering_phase_);
     std::vector<double> pieces = view_pieces();
-    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      if (!lit(0.5 * (pieces[i] + pieces[i + 1]))) continue;
+    bool before = true, now = true;
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i, before = now) {
+      now = lit(0.5 * (pieces[i] + pieces[i + 1]));
+      if (i > 0 && now != before) add(ray.shadow_edge, source(pieces[i]));
+      if (!now) continue;
       add(ray.inscatter, adapt(pieces[i], pieces[i + 1], gauss(pieces[i], pieces[i + 1]), 0));
     }
     Columns columns = column(path.altitude_km, path.mu, path.length_km);

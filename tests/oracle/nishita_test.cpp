@@ -38,22 +38,47 @@ double share_within(const std::vector<double>& errors, double bound) {
          static_cast<double>(errors.size());
 }
 
-/// The largest difference of each direction over its wavelengths, in the contract's measure.
-std::vector<double> worst_by_direction(const Scene& scene,
-                                       const std::vector<Direction>& directions) {
-  Adaptive integral(pack<double>(make_problem(scene, scene.spectrum.wavelengths_nm)));
-  std::vector<std::vector<double>> exact;
-  for (const Direction& d : directions) {
-    Ray ray = integral.trace(towards(d.elevation_deg, d.azimuth_deg));
-    exact.emplace_back();
-    for (int w = 0; w < 3; ++w) exact.back().push_back(ray.inscatter[w] + ray.ground[w]);
-  }
-  auto d = relative_differences(device().radiance(scene, directions, false).radiance, exact);
+/// The contract's measure by direction, the largest over its wavelengths.
+std::vector<double> worst_by_direction(const std::vector<std::vector<double>>& values,
+                                       const std::vector<std::vector<double>>& reference) {
+  auto d = relative_differences(values, reference);
   std::vector<double> worst;
   for (std::size_t i = 0; i < d.size(); i += 3) {
     worst.push_back(std::max({std::abs(d[i]), std::abs(d[i + 1]), std::abs(d[i + 2])}));
   }
   return worst;
+}
+
+struct Comparison {
+  std::vector<double> errors;        ///< by direction
+  std::vector<double> half_samples;  ///< what half a sample at the shadow's edge is worth
+};
+
+/// The device against the adaptive integral.
+Comparison compare(const Scene& scene, const std::vector<Direction>& directions) {
+  P physics = pack<double>(make_problem(scene, scene.spectrum.wavelengths_nm));
+  Adaptive integral(physics);
+  std::vector<std::vector<double>> exact, shifted;
+  for (const Direction& d : directions) {
+    glm::dvec3 direction = towards(d.elevation_deg, d.azimuth_deg);
+    Ray ray = integral.trace(direction);
+    double half_km = physics.path_from_camera(direction).length_km /
+                     (2 * scene.method.options.at("view_samples"));
+    exact.emplace_back();
+    shifted.emplace_back();
+    for (int w = 0; w < 3; ++w) {
+      exact.back().push_back(ray.inscatter[w] + ray.ground[w]);
+      shifted.back().push_back(exact.back().back() + half_km * ray.shadow_edge[w]);
+    }
+  }
+  Radiances found = device().radiance(scene, directions, false);
+  return {worst_by_direction(found.radiance, exact), worst_by_direction(shifted, exact)};
+}
+
+void print(const char* what, std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  std::printf("%zu %s directions: median %.1e, 99 %% %.1e, largest %.1e\n", errors.size(), what,
+              errors[errors.size() / 2], errors[errors.size() * 99 / 100], errors.back());
 }
 
 TEST(Nishita, OnTheDeviceWithAThousandSamplesIsWithinAThousandthOfTheAdaptiveIntegral) {
@@ -62,14 +87,33 @@ TEST(Nishita, OnTheDeviceWithAThousandSamplesIsWithinAThousandthOfTheAdaptiveInt
     for (double sun : {90.0, 45.0, 20.0, 5.0, 0.0, -2.0, -6.0, -12.0}) {
       Scene scene = reference_scene(altitude_km, sun, 0.3);
       set_samples(scene, 1000, 1000);
-      for (double e : worst_by_direction(scene, spread_directions(altitude_km, 8))) {
+      for (double e : compare(scene, spread_directions(altitude_km, 8)).errors) {
         errors.push_back(e);
       }
     }
   }
-  std::sort(errors.begin(), errors.end());
-  std::printf("%zu directions: median %.1e, 99 %% %.1e, largest %.1e\n", errors.size(),
-              errors[errors.size() / 2], errors[errors.size() * 99 / 100], errors.back());
+  print("spread", errors);
+  EXPECT_GE(share_within(errors, 1e-3), 0.99);
+}
+
+// The table's directions crowd where a march fails: at limbs, at the horizon, at the edge of
+// the planet's shadow. The midpoint rule sees that edge where the nearest boundary of two
+// samples is, half a sample away at most. All else that it loses is below 3e-4, the most of it
+// where a ray grazes the shadow.
+TEST(Nishita, TowardsThePublishedDirectionsLosesNoMoreThanHalfASampleAtTheShadowsEdge) {
+  std::vector<double> errors;
+  for (auto& [scene, directions] : published_views()) {
+    set_samples(scene, 1000, 1000);
+    Comparison found = compare(scene, directions);
+    for (std::size_t i = 0; i < found.errors.size(); ++i) {
+      EXPECT_LE(found.errors[i], found.half_samples[i] + 3e-4)
+          << "altitude " << scene.camera.altitude_km << " sun " << scene.sun.elevation_deg
+          << " elevation " << directions[i].elevation_deg;
+    }
+    errors.insert(errors.end(), found.errors.begin(), found.errors.end());
+  }
+  EXPECT_EQ(errors.size(), 272u);
+  print("published", errors);
   EXPECT_GE(share_within(errors, 1e-3), 0.99);
 }
 

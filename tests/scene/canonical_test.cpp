@@ -82,11 +82,13 @@ TEST(Canonical, ConstituentsOfEarthThatAreNotThereAreNull) {
 }
 
 TEST(Canonical, APlaceIsResolvedToAngles) {
-  const Json sun =
+  const Json document =
       canonical(scene_of(R"({"sun": {"place": {"latitude_deg": 48, "longitude_deg": 2,
-                                          "time": "2024-06-20T12:00:00Z"}}})"))["sun"];
-  EXPECT_FALSE(sun.contains("place"));
-  EXPECT_GT(sun["elevation_deg"], 60);
+                                          "time": "2024-06-20T12:00:00Z"}}})"));
+  EXPECT_FALSE(document["sun"].contains("place"));
+  EXPECT_GT(document["sun"]["elevation_deg"], 60);
+  EXPECT_EQ(document["camera"]["latitude_deg"], 48);
+  EXPECT_NEAR(document["camera"]["sidereal_time_deg"], 89, 1);  // 6 h in the south at midday
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "engine/engine.h"
+#include "engine/optics/sun_position.h"
 #include "scene_testing.h"
 
 namespace cyanometer {
@@ -367,6 +368,7 @@ TEST(Reading, APlaceSaysWhereTheSunAndTheCameraStand) {
   EXPECT_NEAR(scene.sun.elevation_deg, 39.872, 0.001);
   EXPECT_EQ(scene.camera.latitude_deg, 39.742476);
   EXPECT_EQ(scene.camera.longitude_deg, -105.1786);
+  EXPECT_EQ(scene.camera.sidereal_time_deg, sidereal_time_deg("2003-10-17T12:30:30-07:00"));
   const Scene elsewhere = scene_of(R"({"camera": {"latitude_deg": 5}, )" + place + "}");
   EXPECT_EQ(elsewhere.camera.latitude_deg, 5);
   EXPECT_EQ(elsewhere.sun, scene.sun);

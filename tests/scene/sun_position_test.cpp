@@ -33,6 +33,12 @@ TEST(SunPosition, AtThePoleTheElevationIsTheDeclination) {
   EXPECT_NEAR(south.elevation_deg, -declination - parallax, 0.0005);
 }
 
+// Meeus, examples 12.a and 12.b.
+TEST(SiderealTime, TheWorkedExamplesOfMeeusAreMet) {
+  EXPECT_NEAR(sidereal_time_deg("1987-04-10T00:00:00Z"), 15 * degrees(13, 10, 46.3668), 1e-6);
+  EXPECT_NEAR(sidereal_time_deg("1987-04-10T19:21:00Z"), 15 * degrees(8, 34, 57.0896), 1e-6);
+}
+
 // Meeus, example 28.a: the equation of time is then +13 m 42.6 s, so that the sun is in the
 // south where the mean solar time is that much before noon.
 TEST(SunPosition, AtTrueNoonTheSunIsInTheSouth) {

@@ -61,7 +61,7 @@ typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, 
 int orders_until_geometric(const Problem& problem) {
   double largest = 0;
   for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
-    double depth = 0;  // of scattering, less what goes on forward
+    double depth = 0;  // of scattering, less half of what goes on forward
     for (const Medium& medium : problem.media) {
       double scattering = medium.scattering_per_km[w];
       if (scattering <= 0) continue;
@@ -72,13 +72,13 @@ int orders_until_geometric(const Problem& problem) {
         g = tabulated_coefficients(table->angle_rad, table->values[w], 1)[1];
       }
       depth +=
-          scattering * column_km(medium.profile, problem.thickness_km) * (1 - std::max(g, 0.0));
+          scattering * column_km(medium.profile, problem.thickness_km) * (1 - std::max(g, 0.0) / 2);
     }
     // About what a layer and the ground under it send back to each other.
     double air = 1.5 * depth / (1 + 1.5 * depth);
     largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
   }
-  return 3 + static_cast<int>(std::min(4 * largest / std::max(1 - largest, 0.05), 60.0));
+  return 2 + static_cast<int>(std::min(2.5 * largest / std::max(1 - largest, 0.04), 60.0));
 }
 
 template physics::Physics<float>::MomentGrid moment_grid<float>(const Problem&, int, int);

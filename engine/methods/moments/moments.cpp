@@ -75,6 +75,21 @@ class Moments final : public Method {
 
   const MethodDescription& description() const override { return moments_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    constexpr double usual_orders = 4, multiplications_in_one = 8;
+    double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
+    double gathered = options.at("altitudes") * 1.5 * options.at("directions") *
+                      options.at("suns") * options.at("azimuths");
+    double first_order = gathered * 2 * 6 * 12 * media;
+    double others = gathered * usual_orders * options.at("steps") * 4 *
+                    (options.at("degree") + 2) / multiplications_in_one;
+    double sky = 2 * options.at("sky_elevations") * options.at("sky_azimuths") *
+                 options.at("sky_steps") * 10 * media;
+    double pixels = rays * problem.sun_disc_samples * 4 * options.at("view_nodes") * 12 * media;
+    return first_order + others + sky + pixels;
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     constexpr std::int64_t fewest = 64, most = 1 << 16;
@@ -226,6 +241,23 @@ MethodOption whole(std::string name, std::string title, std::string text, double
           .logarithmic = minimum > 0};
 }
 
+/// All options but the number of orders, which follows from the air.
+MethodOptions sizes(int degree, int altitudes, int suns, int directions, int azimuths,
+                    int steps, int view_nodes, int sky_steps, int sky_elevations,
+                    int sky_azimuths) {
+  return {{"degree", degree},
+          {"altitudes", altitudes},
+          {"suns", suns},
+          {"directions", directions},
+          {"azimuths", azimuths},
+          {"steps", steps},
+          {"orders", 0},
+          {"view_nodes", view_nodes},
+          {"sky_steps", sky_steps},
+          {"sky_elevations", sky_elevations},
+          {"sky_azimuths", sky_azimuths}};
+}
+
 }  // namespace
 
 const MethodDescription& moments_description() {
@@ -264,6 +296,9 @@ const MethodDescription& moments_description() {
                  "Elevations of the camera's sky, and as many of its ground.", 8, 256, 48),
            whole("sky_azimuths", "Sky azimuths",
                  "Azimuths of the camera's sky, in half a turn.", 4, 128, 24)},
+      .ladder = {sizes(2, 8, 16, 6, 4, 6, 4, 12, 32, 12),
+                 sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24),
+                 sizes(6, 12, 32, 12, 12, 12, 8, 20, 72, 36)},
   };
   return description;
 }

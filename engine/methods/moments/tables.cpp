@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/methods/moments/grid.h"
+#include "spirv/moments_close.spv.h"
 #include "spirv/moments_first.spv.h"
 #include "spirv/moments_next.spv.h"
 #include "spirv/moments_project.spv.h"
@@ -19,15 +20,13 @@ using Grid = MomentTables::Grid;
 /// shaders/methods/moments_device.glsl
 struct Push {
   Grid grid;
-  std::int32_t fine_altitudes, up, down, azimuths, steps, first, end, first_azimuth,
-      end_azimuth, first_altitude, last, tail;
+  std::int32_t fine_altitudes, up, down, azimuths, steps, first_steps, first, end,
+      first_azimuth, end_azimuth, first_altitude, tail;
 };
 struct RefinePush {
   MomentSolver::Axis axis;
   std::int32_t first, end;
 };
-
-constexpr int piece_nodes = 6;  // PIECE_NODES of shaders/methods/moments_first.comp
 
 /// Nodes of a finer table that linear interpolation reads as if it were cubic.
 int finer(int nodes, int most) {
@@ -70,31 +69,28 @@ class Solution {
   }
 
   void trace_first_order(const vulkan::Kernel& kernel) {
-    int rounds = most_pieces(scene_) * rounds_of_a_piece(scene_, piece_nodes);
+    int rounds = 2 * rounds_of_a_piece(scene_, first_steps());
     int at_once = std::max(most_loop_iterations / rounds, 1);
     require_rounds(scene_, rounds);
     for (int first = 0; first < settings_.azimuths; first += at_once) {
       Push part = push();
       part.first_azimuth = first;
       part.end_azimuth = std::min(first + at_once, settings_.azimuths);
-      std::int64_t nodes = (part.end_azimuth - first) * 2 * piece_nodes;
+      std::int64_t nodes = (part.end_azimuth - first) * 4 * first_steps() / 3;
       run(kernel, grid_.altitudes * rays() * grid_.suns, nodes * 12 * media(), part);
     }
   }
 
-  void project(const vulkan::Kernel& kernel, bool last) {
-    Push all = push();
-    all.last = last;
-    all.tail = last && settings_.tail;
-    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, all);
+  void project(const vulkan::Kernel& kernel) {
+    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, push());
   }
 
-  void refine_altitudes(MomentSolver& solver) {
-    int table = table_values(grid_.altitudes);
+  void refine_altitudes(MomentSolver& solver, int table) {
     solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
-                  {0, 2 * table, grid_.altitudes, finer_altitudes(grid_.altitudes),
+                  {table, fine_table(), grid_.altitudes, finer_altitudes(grid_.altitudes),
                    grid_.suns * slots() * groups_, 0});
   }
+  void refine_order(MomentSolver& solver) { refine_altitudes(solver, 0); }
 
   void trace_next_order(const vulkan::Kernel& rows, const vulkan::Kernel& next) {
     for (int first = 0; first < grid_.altitudes; first += rows_at_once_) {
@@ -108,14 +104,15 @@ class Solution {
   }
 
   /// The sum, as skies read it.
-  void finish(MomentSolver& solver) {
-    refine_altitudes(solver);
-    int fine_altitudes = tables_.fine_altitudes;
-    solver.refine(work_, tracer_, scene_, moments_, tables_.moments, fine_altitudes,
-                  {2 * table_values(grid_.altitudes), 0, grid_.suns, tables_.fine_suns,
-                   slots() * groups_, 0});
+  void finish(const vulkan::Kernel& close, MomentSolver& solver) {
+    run(close, (grid_.altitudes + 1) * grid_.suns * groups_, 2 * slots(), push());
+    int sum = table_values(grid_.altitudes);
+    refine_altitudes(solver, sum);
+    solver.refine(
+        work_, tracer_, scene_, moments_, tables_.moments, tables_.fine_altitudes,
+        {fine_table(), 0, grid_.suns, tables_.fine_suns, slots() * groups_, 0});
     solver.refine(work_, tracer_, scene_, moments_, tables_.moments, 1,
-                  {grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
+                  {sum + grid_.altitudes * grid_.suns * slots() * groups_, tables_.irradiance,
                    grid_.suns, tables_.fine_suns, groups_, 0});
     work_.submit();
   }
@@ -126,6 +123,10 @@ class Solution {
   int media() const { return std::max(scene_.media(), 1); }
   int slots() const { return slots_of(settings_.degree); }
   int rays() const { return up_ + down_; }
+  /// The light of the sun changes faster than what it causes.
+  int first_steps() const {
+    return std::min(settings_.steps + 4, int{Physics<float>::MOST_GAUSS_NODES});
+  }
   // Sizes in values of four wavelengths, as shaders/methods/moments_device.glsl counts them.
   std::int64_t row_values() const {  // of one altitude
     return std::int64_t{rays()} * settings_.steps * settings_.suns * (settings_.degree + 2) *
@@ -142,9 +143,11 @@ class Solution {
   int table_values(int altitudes) const {
     return (altitudes * slots() + 1) * settings_.suns * groups_;
   }
+  int fine_table() const {
+    return 2 * table_values(grid_.altitudes) + (grid_.altitudes + 1) * grid_.suns * groups_;
+  }
   std::int64_t moment_values() const {
-    return 2 * table_values(settings_.altitudes) +
-           table_values(finer_altitudes(settings_.altitudes));
+    return fine_table() + table_values(finer_altitudes(grid_.altitudes));
   }
 
   Push push() const {
@@ -154,13 +157,13 @@ class Solution {
             down_,
             settings_.azimuths,
             settings_.steps,
+            first_steps(),
             0,
             0,
             0,
             settings_.azimuths,
             0,
-            false,
-            false};
+            settings_.tail};
   }
 
   void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
@@ -219,6 +222,7 @@ MomentSolver::MomentSolver(vulkan::Device& device)
       project_(device, moments_project_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       rows_(device, moments_rows_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       next_(device, moments_next_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+      close_(device, moments_close_spirv, UploadedScene::bindings + 5, sizeof(Push)),
       refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
 
 std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
@@ -231,13 +235,13 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   Solution solution(tracer, scene, settings, series, *tables);
   solution.trace_rays(rays_);
   solution.trace_first_order(first_);
-  solution.project(project_, settings.orders == 1);
+  solution.project(project_);
   for (int order = 2; order <= settings.orders; ++order) {
-    solution.refine_altitudes(*this);
+    solution.refine_order(*this);
     solution.trace_next_order(rows_, next_);
-    solution.project(project_, order == settings.orders);
+    solution.project(project_);
   }
-  solution.finish(*this);
+  solution.finish(close_, *this);
   return tables;
 }
 

@@ -70,6 +70,13 @@ class Nishita final : public Method {
 
   const MethodDescription& description() const override { return nishita_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    return rays * options.at("view_samples") *
+           (options.at("light_samples") * problem.sun_disc_samples + 1) *
+           std::max<double>(static_cast<double>(problem.media.size()), 1);
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     // Whole marches in one dispatch where they fit: each part of one costs a ray its set-up

@@ -61,13 +61,20 @@ class PathTracing final : public Method {
 
   const MethodDescription& description() const override { return path_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    constexpr double usual_vertices = 4;
+    return rays * walks_of(options) * usual_vertices *
+           static_cast<double>(cost_of_step(static_cast<int>(problem.media.size())));
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     // Lanes enough to keep a device busy, few enough that a dispatch takes each of them some
     // steps on.
     constexpr std::int64_t fewest = 2048, most = 1 << 18, steps = 16;
     std::int64_t lanes =
-        std::clamp(pacer.evaluations() / (steps * cost_of_step(scene)), fewest, most);
+        std::clamp(pacer.evaluations() / (steps * cost_of_step(scene.media())), fewest, most);
     int rays =
         static_cast<int>(std::max<std::int64_t>(lanes / slices_for(walks_of(options)), 64));
     return std::min(rays, first_order_->rays_at_once(scene, first_order(1), pacer));
@@ -102,8 +109,8 @@ class PathTracing final : public Method {
 
   /// Evaluations of densities in one step of a walk: its segments, the columns to the next
   /// vertex and to the sun, phases and random numbers.
-  static std::int64_t cost_of_step(const UploadedScene& scene) {
-    return std::int64_t{2 * segments + 32} * std::max(scene.media(), 1) + 16;
+  static std::int64_t cost_of_step(int media) {
+    return std::int64_t{2 * segments + 32} * std::max(media, 1) + 16;
   }
 
   /// Rounds of all loops in one step, none unrolled. @throws OverLimit where they are too many
@@ -158,7 +165,7 @@ class PathTracing final : public Method {
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
     constants.push_back(guided);
-    std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene);
+    std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
     std::int64_t most = most_loop_iterations / loops_of_step(scene);
     do {
       push.steps = static_cast<int>(
@@ -209,6 +216,10 @@ const MethodDescription& path_description() {
                    .default_value = 0,
                    .integer = true,
                    .logarithmic = false}},
+      .ladder = {{{"samples_per_pixel", 16}, {"seed", 0}},
+                 {{"samples_per_pixel", 64}, {"seed", 0}},
+                 {{"samples_per_pixel", 256}, {"seed", 0}},
+                 {{"samples_per_pixel", 1024}, {"seed", 0}}},
   };
   return description;
 }

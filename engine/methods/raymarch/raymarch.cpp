@@ -13,20 +13,6 @@ struct Push {
 
 constexpr int most_pieces = Physics<float>::MOST_PIECES;
 
-/// Pieces of a ray whose loops stay below the drivers' limit.
-int pieces_at_once(const UploadedScene& scene, int view_nodes) {
-  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
-  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
-  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
-  if (a_piece > most_loop_iterations) {
-    throw OverLimit("/atmosphere/constituents",
-                    "the tables of all profiles together have " +
-                        std::to_string(scene.profile_nodes()) +
-                        " nodes, more than a march of so many view nodes can follow");
-  }
-  return std::min(most_loop_iterations / a_piece, most_pieces);
-}
-
 class Raymarch final : public Method {
  public:
   explicit Raymarch(vulkan::Device& device)
@@ -34,17 +20,23 @@ class Raymarch final : public Method {
 
   const MethodDescription& description() const override { return raymarch_description(); }
 
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    return rays * problem.sun_disc_samples *
+           static_cast<double>(cost(std::ssize(problem.media), options));
+  }
+
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     constexpr std::int64_t fewest = 64, most = 1 << 16;
-    std::int64_t fit = pacer.evaluations() / cost(scene, options, 1);
+    std::int64_t fit = pacer.evaluations() / cost(scene.media(), options);
     return static_cast<int>(std::clamp(fit / 64 * 64, fewest, most));
   }
 
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     int view_nodes = static_cast<int>(options.at("view_nodes"));
-    int pieces = pieces_at_once(scene, view_nodes);
+    int pieces = march_pieces_at_once(scene, view_nodes);
     std::vector<vulkan::Binding> bindings =
         scene.bind({tile.values, progress_for(tracer.device, tile.rays)});
     for (int sun = 0; sun < scene.disc_points(); ++sun) {
@@ -53,18 +45,14 @@ class Raymarch final : public Method {
         Push push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
         tracer.commands.dispatch(kernel_, scene.constants(), bindings, vulkan::bytes_of(push),
                                  {vulkan::groups_for(tile.rays, 64)});
-        tracer.pacer.took(cost(scene, options, tile.rays), tracer.submit());
+        tracer.pacer.took(cost(scene.media(), options) * tile.rays, tracer.submit());
       }
     }
   }
 
  private:
-  /// Evaluations of a number of rays under one sun.
-  static std::int64_t cost(const UploadedScene& scene, const MethodOptions& options,
-                           std::int64_t rays) {
-    constexpr int usual_pieces = 4, a_node = 12;
-    return rays * usual_pieces * static_cast<std::int64_t>(options.at("view_nodes")) * a_node *
-           std::max(scene.media(), 1);
+  static std::int64_t cost(std::int64_t media, const MethodOptions& options) {
+    return march_evaluations(media, static_cast<int>(options.at("view_nodes")));
   }
 
   const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
@@ -80,6 +68,24 @@ class Raymarch final : public Method {
 };
 
 }  // namespace
+
+int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
+  int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
+  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
+  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
+  if (a_piece > most_loop_iterations) {
+    throw OverLimit("/atmosphere/constituents",
+                    "the tables of all profiles together have " +
+                        std::to_string(scene.profile_nodes()) +
+                        " nodes, more than a march of so many view nodes can follow");
+  }
+  return std::min(most_loop_iterations / a_piece, most_pieces);
+}
+
+std::int64_t march_evaluations(std::int64_t media, int view_nodes) {
+  constexpr int usual_pieces = 4, a_node = 12;
+  return std::int64_t{usual_pieces} * view_nodes * a_node * std::max<std::int64_t>(media, 1);
+}
 
 const MethodDescription& raymarch_description() {
   static const MethodDescription description{
@@ -105,6 +111,12 @@ const MethodDescription& raymarch_description() {
                    .default_value = 6,
                    .integer = true,
                    .logarithmic = true}},
+      .ladder = {{{"view_nodes", 3}},
+                 {{"view_nodes", 4}},
+                 {{"view_nodes", 6}},
+                 {{"view_nodes", 10}},
+                 {{"view_nodes", 16}},
+                 {{"view_nodes", 32}}},
   };
   return description;
 }

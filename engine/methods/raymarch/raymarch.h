@@ -9,4 +9,10 @@ namespace cyanometer {
 const MethodDescription& raymarch_description();
 std::unique_ptr<Method> make_raymarch(vulkan::Device& device);
 
+/// For methods whose first order is this march: pieces of a ray whose loops together stay below
+/// the drivers' limit, and the evaluations that a ray costs under one sun.
+/// @throws OverLimit
+int march_pieces_at_once(const UploadedScene& scene, int view_nodes);
+std::int64_t march_evaluations(std::int64_t media, int view_nodes);
+
 }  // namespace cyanometer

@@ -1,0 +1,192 @@
+#include "engine/methods/bruneton/bruneton.h"
+
+#include <cmath>
+
+#include "engine/methods/bruneton/tables.h"
+#include "engine/methods/raymarch/raymarch.h"
+#include "spirv/bruneton.spv.h"
+#include "spirv/bruneton_single_view.spv.h"
+
+namespace cyanometer {
+namespace {
+
+using bruneton::Setup;
+
+/// Of the density, that reading a table for a ray and a group of wavelengths is worth.
+constexpr int view_evaluations = 20;
+
+struct Push {
+  std::int32_t first_ray, rays_in_tile;
+};
+
+class Bruneton final : public Method {
+ public:
+  explicit Bruneton(vulkan::Device& device)
+      : first_order_(make_raymarch(device)),
+        tables_(device),
+        view_(device, bruneton_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+        single_view_(device, bruneton_single_view_spirv, UploadedScene::bindings + 5,
+                     sizeof(Push)) {}
+
+  const MethodDescription& description() const override { return bruneton_description(); }
+
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    double groups = std::ceil(static_cast<double>(problem.wavelengths_nm.size()) / 4);
+    return bruneton::evaluations(problem, Setup(options)) +
+           first_order_->evaluations(problem, options, rays) + rays * groups * view_evaluations;
+  }
+
+  int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
+                   const Pacer& pacer) const override {
+    return first_order_->rays_at_once(scene, options, pacer);
+  }
+
+  void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
+             const Tile& tile) override {
+    Setup setup(options);
+    if (setup.first == Setup::First::quadrature) {
+      first_order_->trace(tracer, scene, options, tile);
+    } else {
+      trace_single(tracer, scene, setup, tile);
+    }
+    int orders = scene.problem().scattering_orders;
+    if (orders < 0 || orders > 1) add_multiple(tracer, scene, setup, tile);
+  }
+
+ private:
+  void trace_single(Tracer& tracer, const UploadedScene& scene, const Setup& setup,
+                    const Tile& tile) {
+    auto table = tables_.single(tracer, scene, setup);
+    run(tracer, scene, bruneton::view_constants(scene, setup, table->rays.rays), single_view_,
+        {table->rays.grids, table->rays.nodes, table->values, table->particles, tile.values},
+        view_evaluations * scene.media() * scene.groups(), tile);
+  }
+
+  void add_multiple(Tracer& tracer, const UploadedScene& scene, const Setup& setup,
+                    const Tile& tile) {
+    auto sources = tables_.source(tracer, scene, setup);
+    auto view = tables_.view(tracer, scene, setup);
+    run(tracer, scene, bruneton::view_constants(scene, setup, view->rays.rays), view_,
+        {view->rays.grids, view->rays.nodes, view->values, sources->irradiance, tile.values},
+        view_evaluations * scene.groups(), tile);
+  }
+
+  static void run(Tracer& tracer, const UploadedScene& scene,
+                  const vulkan::Specialization& constants, const vulkan::Kernel& kernel,
+                  std::initializer_list<vulkan::Binding> own, std::int64_t evaluations,
+                  const Tile& tile) {
+    Push push{tile.first_ray, tile.rays};
+    std::vector<vulkan::Binding> bindings = scene.bind(own);
+    tracer.commands.dispatch(kernel, constants, bindings, vulkan::bytes_of(push),
+                             {vulkan::groups_for(tile.rays, 64)});
+    tracer.pacer.took(evaluations * tile.rays, tracer.submit());
+  }
+
+  std::unique_ptr<Method> first_order_;
+  bruneton::TableMaker tables_;
+  vulkan::Kernel view_, single_view_;
+};
+
+MethodOption nodes(std::string name, std::string title, std::string description, int least,
+                   int most, int usual) {
+  return {.name = std::move(name),
+          .title = std::move(title),
+          .description = std::move(description),
+          .unit = "",
+          .minimum = static_cast<double>(least),
+          .maximum = static_cast<double>(most),
+          .default_value = static_cast<double>(usual),
+          .integer = true,
+          .logarithmic = most > 4};
+}
+
+/// Small tables, the usual ones, and fine ones.
+std::vector<MethodOptions> ladder(const std::vector<MethodOption>& options) {
+  const std::vector<MethodOptions> changes{
+      {{"altitudes", 10}, {"zeniths", 14}, {"suns", 24}, {"azimuths", 7}, {"samples", 16}},
+      {},
+      {{"zeniths", 40},
+       {"azimuths", 17},
+       {"source_zeniths", 25},
+       {"source_azimuths", 13},
+       {"suns", 40},
+       {"samples", 32},
+       {"view_nodes", 8}}};
+  std::vector<MethodOptions> settings;
+  for (const MethodOptions& changed : changes) {
+    settings.emplace_back(changed);
+    for (const MethodOption& option : options) {
+      settings.back().emplace(option.name, option.default_value);
+    }
+  }
+  return settings;
+}
+
+MethodDescription describe() {
+  MethodDescription description{
+      .name = "bruneton",
+      .title = "Bruneton's tables",
+      .summary =
+          "All orders, each from the one before, in tables over altitude, view, sun and the "
+          "azimuth between them. They hold for every camera and every sun.",
+      .limits =
+          {"From the second order on light is parallel and comes from the centre of the disc.",
+           "Narrow forward peaks (g above 0.9) are wider than they are from the second order "
+           "on, and need more zeniths and azimuths."},
+      .options =
+          {nodes("orders", "Orders computed",
+                 "Of all orders those that are computed; the others are a geometric series.", 2,
+                 64, 5),
+           nodes("altitudes", "Altitudes", "Nodes from the ground to the top.", 4, 128, 16),
+           nodes("zeniths", "Zenith nodes",
+                 "Directions of view on each side of the horizon, and of the integral over "
+                 "all directions.",
+                 4, 128, 24),
+           nodes("suns", "Sun nodes",
+                 "Elevations of the sun, from the zenith to where it lights no air.", 4, 256,
+                 32),
+           nodes("azimuths", "Azimuth nodes", "From the sun to the opposite.", 3, 65, 13),
+           nodes("source_zeniths", "Source zeniths",
+                 "Directions, even in angle, of what the air scatters.", 3, 129, 13),
+           nodes("source_azimuths", "Source azimuths", "Of what the air scatters.", 3, 65, 7),
+           nodes("refinement", "Refinement",
+                 "The source is interpolated by cubics on a grid so many times finer in each "
+                 "coordinate, before it is read linearly; 1 leaves that out.",
+                 1, 6, 2),
+           nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 24),
+           nodes("view_nodes", "View nodes",
+                 "Gauss nodes on each smooth piece of a path in the first order.", 1,
+                 Physics<float>::MOST_GAUSS_NODES, 6),
+           nodes("mapping", "Mapping",
+                 "Of tables: 0 linear; 1 the paper's, by distances to the horizon and the top; "
+                 "2 gathered at the horizon and the terminator.",
+                 0, 2, 2),
+           nodes("horizon", "Split at the horizon",
+                 "1: nothing is interpolated from the sky to the ground.", 0, 1, 1),
+           nodes("logarithmic", "Of logarithms", "1: logarithms are interpolated.", 0, 1, 1),
+           nodes("gather", "Gather for the view",
+                 "1: a small table of the view is integrated from the source for the camera's "
+                 "altitude and sun; 0: the four-dimensional table is read.",
+                 0, 1, 1),
+           nodes("first_order", "First order",
+                 "0: by quadrature; 1: from a table of each constituent; 2: particles in the "
+                 "colours of the molecules' table.",
+                 0, 2, 0)},
+  };
+  description.ladder = ladder(description.options);
+  return description;
+}
+
+}  // namespace
+
+const MethodDescription& bruneton_description() {
+  static const MethodDescription description = describe();
+  return description;
+}
+
+std::unique_ptr<Method> make_bruneton(vulkan::Device& device) {
+  return std::make_unique<Bruneton>(device);
+}
+
+}  // namespace cyanometer

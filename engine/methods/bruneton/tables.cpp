@@ -1,0 +1,435 @@
+#include "engine/methods/bruneton/tables.h"
+
+#include <array>
+
+#include "engine/methods/raymarch/raymarch.h"
+#include "engine/methods/tables/fill.h"
+#include "spirv/bruneton_cells.spv.h"
+#include "spirv/bruneton_first.spv.h"
+#include "spirv/bruneton_gather.spv.h"
+#include "spirv/bruneton_irradiance.spv.h"
+#include "spirv/bruneton_order.spv.h"
+#include "spirv/bruneton_redistribute.spv.h"
+#include "spirv/bruneton_refine.spv.h"
+#include "spirv/bruneton_single.spv.h"
+#include "spirv/bruneton_source.spv.h"
+
+namespace cyanometer::bruneton {
+namespace {
+
+constexpr std::uint32_t grid_bindings = UploadedScene::bindings + 2;
+constexpr std::size_t vec4_bytes = 4 * sizeof(float);
+/// Orders computed at the most; those beyond follow from the last two.
+constexpr int most_orders = 64;
+constexpr int most_pieces = Physics<float>::MOST_PIECES;
+
+struct CellsPush {
+  std::int32_t first, end, cells;
+};
+struct FirstPush {
+  std::int32_t first, end, view_nodes, pieces, fresh, last;
+};
+struct GatherPush {
+  std::int32_t first, end, cells, with_ground, encode;
+};
+struct SlicePush {
+  std::int32_t first, end, altitude, out_zeniths, out_azimuths;
+};
+struct RangePush {
+  std::int32_t first, end;
+};
+struct RefinePush {
+  std::int32_t first, end, rows, columns, inner, factor;
+};
+struct OrderPush {
+  std::int32_t first, end, directions, first_order, last_order, tail;
+};
+
+/// A buffer of so many vec4, if the device can bind it.
+vulkan::Buffer table_buffer(vulkan::Device& device, std::size_t values,
+                            const std::string& option, const std::string& what) {
+  std::size_t bytes = std::max<std::size_t>(values, 1) * vec4_bytes;
+  const vulkan::Limits& limits = device.limits();
+  std::size_t most = std::min(limits.max_storage_range, limits.max_allocation);
+  if (bytes > most) {
+    throw OverLimit("/method/" + option, what + " would take " + std::to_string(bytes >> 20) +
+                                             " MiB; this device binds " +
+                                             std::to_string(most >> 20));
+  }
+  return {device, bytes, vulkan::Memory::device};
+}
+
+vulkan::Buffer scattering_buffer(vulkan::Device& device, const Rays& rays,
+                                 std::size_t quantities) {
+  return table_buffer(device, quantities * rays.texels(), "zeniths",
+                      "a table of the scattering");
+}
+
+vulkan::Buffer grid_buffer(vulkan::Device& device, const ScatteringGrid& rays,
+                           const ScatteringGrid& source) {
+  std::array grids{rays, source};
+  vulkan::Buffer buffer(device, sizeof grids, vulkan::Memory::device);
+  buffer.write(0, vulkan::bytes_of(grids));
+  return buffer;
+}
+
+vulkan::Buffer node_buffer(vulkan::Device& device, const std::vector<float>& nodes) {
+  vulkan::Buffer buffer(device, nodes.size() * sizeof(float), vulkan::Memory::device);
+  buffer.write(0, std::as_bytes(std::span(nodes)));
+  return buffer;
+}
+
+std::size_t cell_values(const Rays& rays, int cells, int groups) {
+  return static_cast<std::size_t>(rays.count()) * (cells + 1) * (2 + groups);
+}
+
+/// Refuses samples whose loops together are over the drivers' limit.
+void expect_few_rounds(int cells, int rounds_of_one) {
+  if (std::int64_t{cells} * rounds_of_one > most_loop_iterations) {
+    throw OverLimit("/method/samples",
+                    "in so many constituents a path has at most " +
+                        std::to_string(most_loop_iterations / rounds_of_one) + " samples");
+  }
+}
+
+/// What the tables of a request and the orders they hold depend on.
+std::string table_key(const UploadedScene& scene, const Setup& setup) {
+  return setup.key() + " " + std::to_string(scene.problem().scattering_orders) + " " +
+         scene.air_key();
+}
+
+/// Up to most_orders of those that are asked for; of all, as many as the options say.
+int orders_to_compute(const Problem& problem, const Setup& setup) {
+  int asked = problem.scattering_orders;
+  return asked < 0 ? setup.orders : std::min(asked, most_orders);
+}
+
+}  // namespace
+
+UploadedRays::UploadedRays(vulkan::Device& device, const Rays& rays_,
+                           const ScatteringGrid& source, int cells_, int groups)
+    : rays(rays_),
+      cells(cells_),
+      grids(grid_buffer(device, rays_.grid, source)),
+      nodes(node_buffer(device, rays_.nodes)),
+      cell_values(table_buffer(device, bruneton::cell_values(rays_, cells_, groups), "samples",
+                               "the samples of all rays")) {}
+
+SourceTables::SourceTables(vulkan::Device& device, const ScatteringGrid& grid_, int groups)
+    : grid(grid_),
+      source(table_buffer(
+          device,
+          std::size_t{1} * grid.altitudes * grid.suns * grid.zeniths * grid.azimuths * groups,
+          "source_zeniths", "the table of the source")),
+      irradiance(table_buffer(device, std::size_t{1} * grid.suns * groups, "suns",
+                              "the table of irradiance")) {}
+
+vulkan::Specialization table_constants(const UploadedScene& scene, const Setup& setup) {
+  constexpr std::size_t projection = 7, near_sun = 8, many_suns = 9;
+  vulkan::Specialization constants = scene.constants();
+  constants[projection] = constants[near_sun] = constants[many_suns] = 0;
+  constants.push_back(setup.logarithmic);
+  constants.push_back(0);
+  constants.push_back(0);
+  constants.push_back(setup.first != Setup::First::reconstructed);
+  return constants;
+}
+
+vulkan::Specialization view_constants(const UploadedScene& scene, const Setup& setup,
+                                      const Rays& rays) {
+  vulkan::Specialization constants = scene.constants();
+  constants.push_back(setup.logarithmic);
+  constants.push_back(rays.grid.suns == 1 ? 1 : 2);
+  constants.push_back(rays.grid.altitudes == 1 ? 1 : 2);
+  constants.push_back(setup.first != Setup::First::reconstructed);
+  return constants;
+}
+
+TableMaker::TableMaker(vulkan::Device& device)
+    : cells_(device, bruneton_cells_spirv, grid_bindings + 1, sizeof(CellsPush)),
+      first_(device, bruneton_first_spirv, grid_bindings + 2, sizeof(FirstPush)),
+      gather_(device, bruneton_gather_spirv, grid_bindings + 4, sizeof(GatherPush)),
+      redistribute_(device, bruneton_redistribute_spirv, grid_bindings + 1, sizeof(SlicePush)),
+      source_(device, bruneton_source_spirv, grid_bindings + 3, sizeof(SlicePush)),
+      irradiance_(device, bruneton_irradiance_spirv, grid_bindings + 2, sizeof(RangePush)),
+      order_(device, bruneton_order_spirv, grid_bindings + 4, sizeof(OrderPush)),
+      refine_(device, bruneton_refine_spirv, grid_bindings + 2, sizeof(RefinePush)),
+      single_(device, bruneton_single_spirv, grid_bindings + 3, sizeof(CellsPush)) {}
+
+namespace {
+
+// Evaluations of the density that one invocation of each kernel is worth.
+std::int64_t for_cells(std::int64_t media, int cells) { return 4 * cells * (media + 1); }
+std::int64_t for_redistribution(std::int64_t media) { return 4 * (media + 1); }
+std::int64_t for_source(std::int64_t incoming, std::int64_t groups) {
+  return incoming * groups / 2 + 1;
+}
+std::int64_t for_gathering(int cells, std::int64_t groups) { return 16 * cells * (1 + groups); }
+
+}  // namespace
+
+double evaluations(const Problem& problem, const Setup& setup) {
+  std::int64_t media = std::ssize(problem.media);
+  std::int64_t groups = (std::ssize(problem.wavelengths_nm) + 3) / 4;
+  double incoming = setup.zeniths * setup.azimuths;
+  double outgoing = setup.source_zeniths * setup.source_azimuths;
+  double places = setup.altitudes * setup.suns, orders = orders_to_compute(problem, setup);
+  auto times = [](double count, std::int64_t each) {
+    return count * static_cast<double>(each);
+  };
+  auto integral = static_cast<std::int64_t>(incoming);
+  return times(places * incoming, march_evaluations(media, setup.view_nodes)) +
+         (orders - 1) *
+             (times(places * outgoing, for_source(integral, groups)) +
+              times(setup.altitudes * incoming * outgoing, for_redistribution(media))) +
+         (orders - 2) * times(places * incoming, for_gathering(setup.cells, groups));
+}
+
+/// One making of tables.
+struct TableMaker::Work {
+  Tracer& tracer;
+  const UploadedScene& scene;
+  const Setup& setup;
+  vulkan::Specialization constants = table_constants(scene, setup);
+
+  /// Runs a kernel over `entries`, each worth so many evaluations of the density.
+  template <class Push>
+  void fill(const vulkan::Kernel& kernel, const UploadedRays& rays,
+            std::initializer_list<vulkan::Binding> own, std::int64_t entries,
+            std::int64_t evaluations, Push push) const {
+    std::vector<vulkan::Binding> bindings = bind(rays, own);
+    fill_table(tracer, {kernel, constants, bindings}, static_cast<int>(entries), evaluations,
+               push);
+  }
+  std::vector<vulkan::Binding> bind(const UploadedRays& rays,
+                                    std::initializer_list<vulkan::Binding> own) const {
+    std::vector<vulkan::Binding> all = scene.bind({rays.grids, rays.nodes});
+    for (const vulkan::Binding& binding : own) all.push_back(binding);
+    return all;
+  }
+};
+
+UploadedRays TableMaker::cut(const Work& work, const Rays& rays) {
+  const UploadedScene& scene = work.scene;
+  int cells = work.setup.cells;
+  expect_few_rounds(cells, 4 * scene.density_iterations());
+  UploadedRays uploaded(work.tracer.device, rays, source_grid(scene.problem(), work.setup),
+                        cells, scene.groups());
+  work.fill(cells_, uploaded, {uploaded.cell_values}, rays.count(),
+            for_cells(scene.media(), cells), CellsPush{0, 0, cells});
+  return uploaded;
+}
+
+void TableMaker::find_first_order(const Work& work, const UploadedRays& rays,
+                                  const vulkan::Buffer& to) {
+  constexpr int most = 1 << 14;  // texels whose progress is kept between two dispatches
+  Tracer& tracer = work.tracer;
+  int view_nodes = work.setup.view_nodes;
+  int pieces = march_pieces_at_once(work.scene, view_nodes);
+  std::int64_t evaluations = march_evaluations(work.scene.media(), view_nodes);
+  vulkan::Buffer progress(tracer.device, most * sizeof(float), vulkan::Memory::device);
+  std::vector<vulkan::Binding> bindings = work.bind(rays, {to, progress});
+  FirstPush push{0, 0, view_nodes, pieces, 0, 0};
+  for (; push.first < rays.rays.texels(); push.first = push.end) {
+    std::int64_t fit = tracer.pacer.evaluations() / evaluations / 64 * 64;
+    int count = static_cast<int>(std::clamp<std::int64_t>(fit, 64, most));
+    push.end = std::min(rays.rays.texels(), push.first + count);
+    for (int done = 0; done < most_pieces; done += pieces) {
+      push.fresh = done == 0;
+      push.last = done + pieces >= most_pieces;
+      tracer.commands.dispatch(first_, work.constants, bindings, vulkan::bytes_of(push),
+                               {vulkan::groups_for(count, 64)});
+      tracer.pacer.took(evaluations * (push.end - push.first), tracer.submit());
+    }
+  }
+}
+
+void TableMaker::find_source(const Work& work, const UploadedRays& rays,
+                             const vulkan::Buffer& radiance, const vulkan::Buffer& to) {
+  const Setup& setup = work.setup;
+  int incoming = rays.rays.directions();
+  int outgoing = setup.source_zeniths * setup.source_azimuths;
+  int groups = work.scene.groups();
+  vulkan::Buffer shares =
+      table_buffer(work.tracer.device, std::size_t{1} * incoming * outgoing * groups,
+                   "source_zeniths", "the redistribution between directions");
+  for (int altitude = 0; altitude < rays.rays.grid.altitudes; ++altitude) {
+    work.fill(redistribute_, rays, {shares}, std::int64_t{1} * incoming * outgoing,
+              for_redistribution(work.scene.media()),
+              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
+    work.fill(source_, rays, {shares, radiance, to},
+              std::int64_t{1} * outgoing * rays.rays.grid.suns, for_source(incoming, groups),
+              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
+  }
+}
+
+void TableMaker::find_irradiance(const Work& work, const UploadedRays& rays,
+                                 const vulkan::Buffer& radiance, const vulkan::Buffer& to) {
+  work.fill(irradiance_, rays, {radiance, to}, rays.rays.grid.suns,
+            for_source(rays.rays.directions(), work.scene.groups()), RangePush{0, 0});
+}
+
+/// A quantity over altitudes, suns and directions by order, summed over orders, and what of it
+/// is interpolated.
+struct TableMaker::OrderSum {
+  /// Nodes, of each group of wavelengths.
+  struct Size {
+    int groups, altitudes, suns, zeniths, azimuths;
+
+    int directions() const { return zeniths * azimuths; }
+    std::size_t bytes() const {
+      return vec4_bytes * groups * altitudes * suns * zeniths * azimuths;
+    }
+  };
+  OrderSum(vulkan::Device& device, const vulkan::Buffer& result_, const Size& size_,
+           const Setup& setup)
+      : result(result_),
+        size(size_),
+        orders{vulkan::Buffer{device, size.bytes(), vulkan::Memory::device},
+               vulkan::Buffer{device, size.bytes(), vulkan::Memory::device}},
+        sum(device, size.bytes(), vulkan::Memory::device),
+        encoded(device, size.bytes(), vulkan::Memory::device),
+        in_directions(device,
+                      size.bytes() / size.directions() * setup.refined(size.zeniths) *
+                          setup.refined(size.azimuths),
+                      vulkan::Memory::device) {}
+
+  const vulkan::Buffer& now() const { return orders[count % 2]; }
+  const vulkan::Buffer& previous() const { return orders[(count + 1) % 2]; }
+
+  const vulkan::Buffer& result;
+  Size size;
+  std::array<vulkan::Buffer, 2> orders;
+  vulkan::Buffer sum, encoded;
+  vulkan::Buffer in_directions;  ///< refined in directions alone
+  int count = 0;
+};
+
+/// Whether an order is the last of a sum, and how many are beyond it, -1 all.
+struct TableMaker::Orders {
+  bool last;
+  int beyond;
+};
+
+void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum& sum,
+                           const Orders& orders) {
+  const OrderSum::Size& size = sum.size;
+  int tail = orders.last && sum.count > 0 ? orders.beyond : 0;
+  work.fill(order_, rays, {sum.now(), sum.previous(), sum.sum, sum.encoded},
+            std::int64_t{1} * size.groups * size.altitudes * size.directions(), 2 * size.suns,
+            OrderPush{0, 0, size.directions(), sum.count == 0, orders.last, tail});
+  ++sum.count;
+  auto refine = [&](const vulkan::Buffer& from, const vulkan::Buffer& to, int rows, int columns,
+                    int inner) {
+    constexpr int evaluations = 16;
+    work.fill(refine_, rays, {from, to}, static_cast<std::int64_t>(to.size() / vec4_bytes),
+              evaluations, RefinePush{0, 0, rows, columns, inner, work.setup.refinement});
+  };
+  refine(sum.encoded, sum.in_directions, size.zeniths, size.azimuths, 1);
+  refine(sum.in_directions, sum.result, size.altitudes, size.suns,
+         work.setup.refined(size.zeniths) * work.setup.refined(size.azimuths));
+}
+
+void TableMaker::gather(const Work& work, const UploadedRays& rays, const SourceTables& from,
+                        Leave leave, const vulkan::Buffer& to) {
+  int groups = work.scene.groups();
+  bool view = leave == Leave::view_without;
+  work.fill(gather_, rays, {rays.cell_values, from.source, from.irradiance, to},
+            rays.rays.texels(), for_gathering(rays.cells, groups),
+            GatherPush{0, 0, rays.cells, !view, view});
+}
+
+std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
+  vulkan::Device& device = work.tracer.device;
+  const Problem& problem = work.scene.problem();
+  int groups = work.scene.groups();
+  UploadedRays rays = cut(work, all_rays(problem, work.setup));
+  const ScatteringGrid grid = source_grid(problem, work.setup);
+  vulkan::Buffer radiance = scattering_buffer(device, rays.rays, groups);
+  auto tables = std::make_shared<SourceTables>(device, grid, groups);
+  const Setup& setup = work.setup;
+  OrderSum source(
+      device, tables->source,
+      {groups, setup.altitudes, setup.suns, setup.source_zeniths, setup.source_azimuths},
+      setup);
+  OrderSum irradiance(device, tables->irradiance, {groups, 1, setup.suns, 1, 1}, setup);
+
+  int last = orders_to_compute(problem, work.setup);
+  int asked = problem.scattering_orders;
+  int beyond = asked < 0 ? -1 : asked - last;
+  find_first_order(work, rays, radiance);
+  for (int order = 2;; ++order) {
+    find_irradiance(work, rays, radiance, irradiance.now());
+    add_order(work, rays, irradiance, {order == last, beyond});
+    find_source(work, rays, radiance, source.now());
+    add_order(work, rays, source, {order == last, beyond});
+    if (order == last) return tables;
+    gather(work, rays, *tables, Leave::radiance_with_ground, radiance);
+  }
+}
+
+std::shared_ptr<const ViewTable> TableMaker::make_view(Work work) {
+  auto tables = source(work.tracer, work.scene, work.setup);
+  const Problem& problem = work.scene.problem();
+  bool in_space = problem.camera.altitude_km > problem.thickness_km;
+  Rays rays = !work.setup.gathered_view ? all_rays(problem, work.setup)
+              : in_space                ? rays_from_space(problem, work.setup)
+                         : rays_from(problem, work.setup, problem.camera.altitude_km,
+                                     problem.sun_direction[2]);
+  UploadedRays uploaded = cut(work, rays);
+  vulkan::Buffer values = scattering_buffer(work.tracer.device, rays, work.scene.groups());
+  gather(work, uploaded, *tables, Leave::view_without, values);
+  return std::make_shared<ViewTable>(std::move(uploaded), std::move(values));
+}
+
+std::shared_ptr<const SingleTable> TableMaker::make_single(Work work) {
+  vulkan::Device& device = work.tracer.device;
+  int groups = work.scene.groups(), media = std::max(work.scene.media(), 1);
+  bool separate = work.setup.first == Setup::First::separate;
+  expect_few_rounds(work.setup.cells,
+                    work.scene.density_iterations() + 2 * (media + work.scene.profile_nodes()));
+  UploadedRays rays = cut(work, all_rays(work.scene.problem(), work.setup));
+  vulkan::Buffer values =
+      scattering_buffer(device, rays.rays, separate ? media * groups : groups);
+  // Four values of one wavelength in the room of a group's.
+  vulkan::Buffer particles =
+      table_buffer(device, separate ? 1 : std::size_t{1} * media * rays.rays.texels() / 4 + 1,
+                   "zeniths", "a table of particles");
+  work.fill(single_, rays, {rays.cell_values, values, particles}, rays.rays.texels(),
+            rays.cells * std::int64_t{12} * media, CellsPush{0, 0, rays.cells});
+  return std::make_shared<SingleTable>(std::move(rays), std::move(values),
+                                       std::move(particles));
+}
+
+std::shared_ptr<const SourceTables> TableMaker::source(Tracer& tracer,
+                                                       const UploadedScene& scene,
+                                                       const Setup& setup) {
+  return tracer.tables.get<SourceTables>("bruneton source " + table_key(scene, setup), [&] {
+    return make_source({tracer, scene, setup});
+  });
+}
+
+std::shared_ptr<const ViewTable> TableMaker::view(Tracer& tracer, const UploadedScene& scene,
+                                                  const Setup& setup) {
+  const Problem& problem = scene.problem();
+  std::string key = "bruneton view ";
+  if (setup.gathered_view) {
+    bool in_space = problem.camera.altitude_km > problem.thickness_km;
+    std::array<double, 2> place{problem.camera.altitude_km, problem.sun_direction[2]};
+    if (!in_space) key.append(reinterpret_cast<const char*>(place.data()), sizeof place);
+    key += in_space ? "space " : " ";
+  }
+  return tracer.tables.get<ViewTable>(key + table_key(scene, setup), [&] {
+    return make_view({tracer, scene, setup});
+  });
+}
+
+std::shared_ptr<const SingleTable> TableMaker::single(Tracer& tracer,
+                                                      const UploadedScene& scene,
+                                                      const Setup& setup) {
+  return tracer.tables.get<SingleTable>("bruneton single " + table_key(scene, setup), [&] {
+    return make_single({tracer, scene, setup});
+  });
+}
+
+}  // namespace cyanometer::bruneton

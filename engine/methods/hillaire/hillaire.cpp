@@ -1,0 +1,201 @@
+#include "engine/methods/hillaire/hillaire.h"
+
+#include "engine/methods/hillaire/tables.h"
+#include "engine/methods/tables/fill.h"
+#include "spirv/hillaire_march.spv.h"
+#include "spirv/hillaire_pixels.spv.h"
+
+namespace cyanometer {
+namespace {
+
+using namespace hillaire;
+
+struct PixelPush {
+  std::int32_t first, end, first_ray, rays_in_tile, all_orders;
+};
+struct MarchPush {
+  std::int32_t first, end, first_ray, rays_in_tile, all_orders, samples, sun;
+  float scale_height_km;
+};
+
+class Hillaire final : public Method {
+ public:
+  explicit Hillaire(vulkan::Device& device)
+      : tables_(device),
+        pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 7, sizeof(PixelPush)),
+        march_(device, hillaire_march_spirv, UploadedScene::bindings + 6, sizeof(MarchPush)),
+        most_bytes_(device.limits().max_storage_range) {}
+
+  const MethodDescription& description() const override { return hillaire_description(); }
+
+  double evaluations(const Problem& problem, const MethodOptions& options,
+                     double rays) const override {
+    Sizes sizes = Sizes::of(options);
+    double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
+    bool inside = problem.camera.altitude_km <= problem.thickness_km;
+    bool table = inside && options.at("march_pixels") == 0 && problem.sun_distance_km == 0 &&
+                 problem.sun_disc_samples == 1;
+    double marched =
+        table ? double(sizes.azimuths) * sizes.elevations : rays * problem.sun_disc_samples;
+    constexpr double a_node = 4, a_lookup = 6, a_column = 16;
+    double depths =
+        double(sizes.optical_depth.cosines) * sizes.optical_depth.altitudes * a_column;
+    double multiple = double(sizes.multiple_suns) * sizes.multiple_altitudes *
+                      options.at("multiple_directions") * options.at("multiple_samples") *
+                      a_node;
+    return media * (depths + multiple + marched * 2 * sizes.view_samples * a_node +
+                    (table ? rays * a_lookup : 0));
+  }
+
+  int rays_at_once(const UploadedScene&, const MethodOptions&, const Pacer&) const override {
+    return 1 << 16;
+  }
+
+  void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
+             const Tile& tile) override {
+    Sizes sizes = Sizes::of(options);
+    bool table = reads_table(scene, options, sizes);
+    TablesOfView tables = tables_.get(tracer, scene, sizes, table);
+    if (table) {
+      interpolate(tracer, scene, sizes, tables, tile);
+    } else {
+      march(tracer, scene, sizes, tables, tile);
+    }
+  }
+
+ private:
+  /// The sky view is of one parallel beam, from inside the air; elsewhere each pixel is
+  /// marched.
+  bool reads_table(const UploadedScene& scene, const MethodOptions& options,
+                   const Sizes& sizes) const {
+    const Problem& problem = scene.problem();
+    return options.at("march_pixels") == 0 && problem.sun_distance_km == 0 &&
+           scene.disc_points() == 1 && problem.camera.altitude_km <= problem.thickness_km &&
+           SkyView::bytes_of(scene, sizes) <= most_bytes_;
+  }
+
+  void interpolate(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
+                   const TablesOfView& tables, const Tile& tile) {
+    vulkan::Specialization specialization = constants(scene, sizes);
+    auto bindings =
+        bind(scene, *tables.air, {tables.columns->values, tables.sky->values, tile.values});
+    PixelPush push{0, 0, tile.first_ray, tile.rays, several_orders(scene.problem())};
+    fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,
+               6 * evaluations_per_node(scene), push);
+  }
+
+  void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
+             const TablesOfView& tables, const Tile& tile) {
+    vulkan::Specialization specialization = constants(scene, sizes);
+    auto bindings = bind(scene, *tables.air, {tables.columns->values, tile.values});
+    MarchPush push{0,
+                   0,
+                   tile.first_ray,
+                   tile.rays,
+                   several_orders(scene.problem()),
+                   sizes.view_samples,
+                   0,
+                   scale_height_km(scene.problem())};
+    for (push.sun = 0; push.sun < scene.disc_points(); ++push.sun) {
+      fill_table(tracer, {march_, specialization, bindings}, tile.rays,
+                 2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
+    }
+  }
+
+  TableMaker tables_;
+  vulkan::Kernel pixels_, march_;
+  std::size_t most_bytes_;
+};
+
+MethodOption size_option(const char* name, const char* title, const char* description,
+                         double minimum, double maximum, double default_value) {
+  return {.name = name,
+          .title = title,
+          .description = description,
+          .unit = "",
+          .minimum = minimum,
+          .maximum = maximum,
+          .default_value = default_value,
+          .integer = true,
+          .logarithmic = minimum > 0};
+}
+
+}  // namespace
+
+const MethodDescription& hillaire_description() {
+  static const MethodDescription description{
+      .name = "hillaire",
+      .title = "Hillaire's tables",
+      .summary =
+          "Small tables of transmittance, of multiple scattering as isotropic light closed by "
+          "a geometric series, and of the sky as the camera sees it. Milliseconds for a frame.",
+      .limits =
+          {"Orders two and up scatter evenly into all directions, and light of each is taken "
+           "to "
+           "be the same all around a point: a frame is off by 3 to 8 % by day in clear air, 9 "
+           "to 18 % in haze, at sunset and in twilight, a quarter under thick clouds, a half "
+           "at "
+           "an orbital sunrise.",
+           "Light that went once sideways and once straight on is missing around the sun, and "
+           "taken from half of each forward peak instead.",
+           "Of a number of orders above one, the series has as many terms; light that the "
+           "ground reflects more than once is counted with all of its orders.",
+           "The sky of a camera between 20 and 100 km is off by up to 5 % next to the horizon, "
+           "where few rows of the table lie."},
+      // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
+      // and 16 samples do what 192 and 32 do.
+      .options =
+          {size_option("transmittance_cosines", "Transmittance: directions",
+                       "Zenith cosines of the table of optical depths.", 8, 1024, 256),
+           size_option("transmittance_altitudes", "Transmittance: altitudes",
+                       "Altitudes of the table of optical depths.", 8, 512, 64),
+           size_option("multiple_suns", "Multiple scattering: suns",
+                       "Sun cosines of the table of multiple scattering.", 4, 256, 32),
+           size_option("multiple_altitudes", "Multiple scattering: altitudes",
+                       "Altitudes of the table of multiple scattering.", 4, 256, 32),
+           size_option("multiple_directions", "Multiple scattering: directions",
+                       "Directions over the sphere about each of its points.", 8, 1024, 64),
+           size_option("multiple_samples", "Multiple scattering: samples",
+                       "Samples along each of these directions.", 4, 64, 20),
+           size_option("sky_azimuths", "Sky view: azimuths",
+                       "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
+                       64),
+           size_option("sky_elevations", "Sky view: elevations",
+                       "Elevations of the sky view, half above and half below the horizon.", 4,
+                       512, 108),
+           size_option("view_samples", "View samples",
+                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16),
+           {.name = "forward_share",
+            .title = "Forward share",
+            .description = "Of the light that its mean cosine says a constituent scatters "
+                           "forwards, the share that orders two and up take as not scattered; "
+                           "0 is Hillaire's own method.",
+            .unit = "",
+            .minimum = 0,
+            .maximum = 0.9,
+            .default_value = 0.5,
+            .integer = false},
+           size_option(
+               "march_pixels", "March each pixel",
+               "1 marches every pixel instead of reading the sky view, as is always done "
+               "from outside the air and for a near or wide sun.",
+               0, 1, 0)},
+      .ladder = {{{"transmittance_cosines", 256},
+                  {"transmittance_altitudes", 64},
+                  {"multiple_suns", 32},
+                  {"multiple_altitudes", 32},
+                  {"multiple_directions", 64},
+                  {"multiple_samples", 20},
+                  {"sky_azimuths", 64},
+                  {"sky_elevations", 108},
+                  {"view_samples", 16},
+                  {"forward_share", 0.5},
+                  {"march_pixels", 0}}}};
+  return description;
+}
+
+std::unique_ptr<Method> make_hillaire(vulkan::Device& device) {
+  return std::make_unique<Hillaire>(device);
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,38 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Diffuse irradiance of the ground under each sun: the radiance of one order at the lowest altitude,
+// integrated over the upper hemisphere. An invocation is a sun.
+#include "device.glsl"
+#include "methods/bruneton/tables.glsl"
+layout(std430, binding = FREE) restrict readonly buffer RadianceBuffer {
+  Vec4 radiances[];
+};
+layout(std430, binding = FREE + 1) restrict writeonly buffer IrradianceBuffer {
+  Vec4 irradiances[];
+};
+
+layout(push_constant) uniform Push {
+  int first_sun;
+  int end_sun;
+} push;
+
+void main() {
+  int s = push.first_sun + int(gl_GlobalInvocationID.x);
+  if (s >= push.end_sun) return;
+  Vec4 sum[GROUPS];
+  UNROLL for (int g = 0; g < GROUPS; ++g) sum[g] = Vec4(0.0);
+  for (int z = 0; z < grid.zeniths; ++z) {
+    Real mu = node_cosine(0, z);
+    if (mu <= 0.0) continue;
+    for (int k = 0; k < grid.azimuths; ++k) {
+      bool at_end = k == 0 || k == grid.azimuths - 1;
+      Real weight =
+          node_weight(0, z) * mu * (at_end ? 1.0 : 2.0) * PI / Real(grid.azimuths - 1);
+      int texel = (s * grid.zeniths + z) * grid.azimuths + k;
+      UNROLL for (int g = 0; g < GROUPS; ++g) {
+        sum[g] = sum[g] + weight * radiances[g * texels() + texel];
+      }
+    }
+  }
+  UNROLL for (int g = 0; g < GROUPS; ++g) irradiances[g * grid.suns + s] = sum[g];
+}

@@ -1,0 +1,70 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// How much of the radiance along each direction of the grid goes on along each of the source table's, at
+// one altitude: phase function times solid angle, of all constituents in the proportion in which they
+// scatter there. Both azimuths of an incoming direction, left and right of the sun, are one node. An
+// invocation is a pair of directions.
+#include "device.glsl"
+#include "methods/bruneton/tables.glsl"
+layout(std430, binding = FREE) restrict writeonly buffer ShareBuffer {
+  Vec4 shares[];
+};
+
+layout(push_constant) uniform Push {
+  int first_pair;
+  int end_pair;
+  int altitude;
+  int out_zeniths;  // directions of the source, as computed
+  int out_azimuths;
+} push;
+
+Vec3 towards(Real mu, Real azimuth) {
+  Real sine = sqrt(max(1.0 - mu * mu, 0.0));
+  return Vec3(sine * cos(azimuth), sine * sin(azimuth), mu);
+}
+
+// Scattering coefficient times phase function, 1/(km sr); in the end over their sum without phase.
+void add_phases(Vec3 from, Vec3 to, ARRAY(Real, density, MEDIA_SIZE),
+                INOUT_ARRAY(Vec4, sum, GROUPS_SIZE)) {
+  Vec4 phases[MEDIA_GROUPS_SIZE];
+  scattering_towards(scattering_angle(from, to), phases);
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    UNROLL for (int g = 0; g < GROUPS; ++g) {
+      sum[g] = sum[g] + phases[c * GROUPS + g] * density[c];
+    }
+  }
+}
+
+void main() {
+  int pair = push.first_pair + int(gl_GlobalInvocationID.x);
+  if (pair >= push.end_pair) return;
+  load_scene();
+  load_media();
+  int outgoing = pair % (push.out_zeniths * push.out_azimuths);
+  int incoming = pair / (push.out_zeniths * push.out_azimuths);
+  Real out_zenith = PI * Real(outgoing / push.out_azimuths) / Real(push.out_zeniths - 1);
+  Real out_azimuth = PI * Real(outgoing % push.out_azimuths) / Real(push.out_azimuths - 1);
+  int zenith = incoming / grid.azimuths;
+  int k = incoming % grid.azimuths;
+  Real mu = node_cosine(push.altitude, zenith);
+  Real in_azimuth = node_azimuth(k);
+  bool at_end = k == 0 || k == grid.azimuths - 1;
+  Real solid_angle = node_weight(push.altitude, zenith) * (at_end ? 1.0 : 2.0) * PI /
+                     Real(grid.azimuths - 1);
+  Vec3 to = towards(cos(out_zenith), out_azimuth);
+
+  Real density[MEDIA_SIZE];
+  densities(node_altitude(push.altitude), density);
+  Vec4 sum[GROUPS];
+  UNROLL for (int g = 0; g < GROUPS; ++g) sum[g] = Vec4(0.0);
+  add_phases(towards(mu, in_azimuth), to, density, sum);
+  add_phases(towards(mu, -in_azimuth), to, density, sum);
+  int pairs = grid.zeniths * grid.azimuths * push.out_zeniths * push.out_azimuths;
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    Vec4 coefficient = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      coefficient = coefficient + scattering(c, g) * density[c];
+    }
+    shares[g * pairs + pair] = 0.5 * solid_angle * sum[g] / max(coefficient, Vec4(1e-30));
+  }
+}

@@ -1,0 +1,47 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Fills the sky view. An invocation is a texel.
+#include "device.glsl"
+#include "methods/hillaire/constants.glsl"
+#include "methods/hillaire/multiple_buffers.glsl"
+
+layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
+layout(std430, binding = OWN + 5) restrict buffer SkyBuffer { Vec4 sky_view[]; };
+
+#include "methods/hillaire/view.glsl"
+#include "methods/hillaire/sky_view.glsl"
+
+layout(push_constant) uniform Push {
+  int first;  // texel
+  int end;
+  int samples;
+  int all_orders;
+  float scale_height_km;
+} push;
+
+void main() {
+  int texel = push.first + int(gl_GlobalInvocationID.x);
+  if (texel >= push.end) return;
+  load_scene();
+  load_media();
+  take_out_forward_peak();
+  SunlitRay ray = sky_ray(texel % SKY_VIEW_AZIMUTHS, texel / SKY_VIEW_AZIMUTHS, scene.camera_altitude_km,
+                          scene.sun_direction.z);
+  Path idle;
+  Real column[MEDIA_SIZE];
+  Vec4 once[MEDIA_GROUPS_SIZE];
+  Vec4 further[GROUPS];
+  march_view(ray, idle, 0, push.samples, push.scale_height_km, push.all_orders != 0,
+             column, once, further);
+  make_ratios(column, once, further);
+  int planes = sky_planes();
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    int plane = 0;
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      if (medium(c).phase == PHASE_NONE) continue;
+      sky_view[(texel * planes + plane) * GROUPS + g] = once[c * GROUPS + g];
+      ++plane;
+    }
+    sky_view[(texel * planes + plane) * GROUPS + g] = further[g];
+  }
+}

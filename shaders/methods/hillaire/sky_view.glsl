@@ -1,0 +1,56 @@
+// The table of ratios over the directions of a camera in the air under parallel light: across, the cosine of
+// the azimuth from the sun, from 1 to -1. All that a ray meets is a smooth function of that cosine, so the
+// table has no seam towards the sun or away from it. Up, SKY_VIEW_ELEVATIONS / 2 rows from the horizon to the
+// zenith, and the others from the horizon to the nadir; nothing is interpolated across the horizon.
+
+int sky_rows() { return SKY_VIEW_ELEVATIONS / 2; }
+int ground_rows() { return SKY_VIEW_ELEVATIONS - sky_rows(); }
+
+// Planes of a texel: one for each constituent that scatters, one for all further orders.
+int sky_planes() {
+  int planes = 1;
+  UNROLL for (int c = 0; c < MEDIA; ++c) planes += medium(c).phase != PHASE_NONE ? 1 : 0;
+  return planes;
+}
+
+struct SkyPosition {
+  NodePosition azimuth;
+  NodePosition elevation;  // its node counts rows of the whole table
+};
+
+SkyPosition sky_position(SunlitRay ray, Real azimuth_cosine) {
+  SkyPosition position;
+  Real x = elevation_coordinate(ray.altitude_km, ray.mu, ray.meets_ground);
+  position.azimuth =
+      node_position(clamp(0.5 - 0.5 * azimuth_cosine, 0.0, 1.0), SKY_VIEW_AZIMUTHS);
+  position.elevation = node_position(x, ray.meets_ground ? ground_rows() : sky_rows());
+  if (ray.meets_ground) position.elevation.node += sky_rows();
+  return position;
+}
+
+// The ray of a texel: what lies at its elevation and azimuth under a sun of the zenith cosine mu_sun.
+SunlitRay sky_ray(int column, int row, Real h, Real mu_sun) {
+  bool ground = row >= sky_rows();
+  Real x = ground ? Real(row - sky_rows()) / Real(ground_rows() - 1)
+                  : Real(row) / Real(sky_rows() - 1);
+  Real mu = elevation_cosine_at(h, x, ground);
+  Real azimuth_cosine = 1.0 - 2.0 * Real(column) / Real(SKY_VIEW_AZIMUTHS - 1);
+  Real sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_sun * mu_sun), 0.0));
+  return sunlit_ray(h, mu, ground, mu_sun, mu * mu_sun + sines * azimuth_cosine);
+}
+
+// Cosine of the azimuth between two directions; where one is vertical any value is right.
+Real azimuth_cosine_between(Vec3 a, Vec3 b) {
+  Real lengths = length(Vec2(a.x, a.y)) * length(Vec2(b.x, b.y));
+  return lengths > 0.0 ? (a.x * b.x + a.y * b.y) / lengths : 1.0;
+}
+
+Vec4 interpolated_ratio(SkyPosition position, int planes, int plane, int group) {
+  int texel = position.elevation.node * SKY_VIEW_AZIMUTHS + position.azimuth.node;
+  int low = (texel * planes + plane) * GROUPS + group;
+  int high = low + SKY_VIEW_AZIMUTHS * planes * GROUPS;
+  int next = planes * GROUPS;
+  return mix(mix(sky_view[low], sky_view[low + next], position.azimuth.fraction),
+             mix(sky_view[high], sky_view[high + next], position.azimuth.fraction),
+             position.elevation.fraction);
+}
