@@ -132,6 +132,8 @@ MethodDescription describe() {
           "azimuth between them. They hold for every camera and every sun.",
       .limits =
           {"From the second order on light is parallel and comes from the centre of the disc.",
+           "In haze of an optical depth of 0.1 under a low sun one ray in a hundred is off by "
+           "2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun of -12 deg.",
            "Narrow forward peaks (g above 0.9) are wider than they are from the second order "
            "on, and need more zeniths and azimuths."},
       .options =
