@@ -174,23 +174,42 @@ ZenithNode zenith_node(Real h, bool down, Real x, Real weight) {
 
 // --- Rays -------------------------------------------------------------------------------------------
 
-// A ray is cut into segments that are equal in the cube root of the distance from its lowest point,
-// where the air is densest.
+// Nodes of a ray are even in a root of the distance from where most of its light comes: its lowest
+// point, where the air is densest, or in thick air its start. It is the cube root, or a higher one that
+// puts nodes within the free path of light.
 struct Cuts {
-  Real lowest_km;    // distance of the lowest point from the start
-  Real from;         // cube roots of the signed distances of start and end from there
+  Real origin_km;    // where they are densest, from the start
+  Real power;
+  Real from;         // roots of the signed distances of start and end from there
   Real to;
 };
 
-Real cube_root(Real x) { return x <= 0.0 ? 0.0 : pow(x, 1.0 / 3.0); }
-Real signed_cube_root(Real x) { return x < 0.0 ? -cube_root(-x) : cube_root(x); }
+Real signed_root(Real x, Real power) {
+  Real magnitude = abs(x) > 0.0 ? pow(abs(x), 1.0 / power) : 0.0;
+  return x < 0.0 ? -magnitude : magnitude;
+}
+
+// Optical depths of a ray, at its start's extinction, from which on light from beyond its lowest point
+// counts for little.
+CONSTANT Real THICK = 8.0;
 
 Cuts cuts_of(Real h, Real mu, Real length_km) {
   Cuts cuts;
-  cuts.lowest_km = clamp(-(scene.planet_radius_km + h) * mu, 0.0, length_km);
-  cuts.from = -cube_root(cuts.lowest_km);
-  cuts.to = cube_root(length_km - cuts.lowest_km);
+  Real depths = largest_extinction(h) * length_km;
+  Real lowest_km = clamp(-(scene.planet_radius_km + h) * mu, 0.0, length_km);
+  cuts.origin_km = depths > THICK ? 0.0 : lowest_km;
+  cuts.power = cuts.origin_km > 0.0 ? 3.0 : max(3.0, log(max(depths, 1.0)) / log(2.5));
+  cuts.from = signed_root(-cuts.origin_km, cuts.power);
+  cuts.to = signed_root(length_km - cuts.origin_km, cuts.power);
   return cuts;
+}
+
+// The same nodes for a part of the ray.
+Cuts part_of(Cuts whole, Real from_km, Real to_km) {
+  Cuts part = whole;
+  part.from = signed_root(from_km - whole.origin_km, whole.power);
+  part.to = signed_root(to_km - whole.origin_km, whole.power);
+  return part;
 }
 
 // Zenith cosine of a ray's direction after the distance t, at the altitude `altitude`.
@@ -204,7 +223,7 @@ Real axis_after(Real h, Real mu_s, Real nu, Real t, Real altitude) {
                1.0);
 }
 
-// A node of a Gauss rule that is even in the cube root, at the share x of the way.
+// A node of a Gauss rule at the share x of the way.
 struct RayNode {
   Real t_km;      // from the start
   Real width_km;  // that it stands for
@@ -213,9 +232,11 @@ struct RayNode {
 RayNode ray_node(Cuts cuts, Real x, Real weight) {
   Real span = cuts.to - cuts.from;
   Real root = cuts.from + span * x;
+  Real magnitude = abs(root);
+  Real slope = magnitude > 0.0 ? pow(magnitude, cuts.power - 1.0) : 0.0;
   RayNode node;
-  node.t_km = max(cuts.lowest_km + root * root * root, 0.0);
-  node.width_km = 3.0 * root * root * span * weight;
+  node.t_km = max(cuts.origin_km + root * slope, 0.0);
+  node.width_km = cuts.power * slope * span * weight;
   return node;
 }
 

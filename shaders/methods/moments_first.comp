@@ -35,14 +35,10 @@ void add_columns(TableRay ray, Cuts cuts, Real from, Real to, INOUT_ARRAY(Real, 
   }
 }
 
-// Adds what a lit part of the ray scatters towards its start, by a Gauss rule over the cube root of the
-// distance. `column` is that up to `from_km`, and in the end up to `to_km`.
+// Adds what a lit part of the ray scatters towards its start, by a Gauss rule. `column` is that up to `from_km`, and in the end up to `to_km`.
 void add_lit_part(TableRay ray, Path path, Real from_km, Real to_km, INOUT_ARRAY(Real, column, MEDIA_SIZE),
                   INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
-  Cuts whole = cuts_of(ray.altitude_km, ray.mu, ray.length_km);
-  Cuts cuts = whole;
-  cuts.from = signed_cube_root(from_km - whole.lowest_km);
-  cuts.to = signed_cube_root(to_km - whole.lowest_km);
+  Cuts cuts = part_of(cuts_of(ray.altitude_km, ray.mu, ray.length_km), from_km, to_km);
   Real density[MEDIA_SIZE];
   Real together[MEDIA_SIZE];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];

@@ -30,7 +30,7 @@ void main() {
   int index = push.first + int(gl_GlobalInvocationID.x);
   if (index >= push.end) return;
   load_scene();
-  UNROLL for (int c = 0; c < MEDIA; ++c) medium_[c] = media[c];
+  load_media();
   int g = index % GROUPS;
   int a = index / GROUPS % push.azimuths;
   int e = index / GROUPS / push.azimuths;

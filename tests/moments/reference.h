@@ -154,9 +154,8 @@ class MomentReference {
 
   Value lit_part(const P::Path& path, double from_km, double to_km) {
     if (to_km - from_km <= 1e-9 * path.length_km) return Value(0);
-    P::Cuts cuts = p_.cuts_of(path.altitude_km, path.mu, path.length_km);
-    cuts.from = p_.signed_cube_root(from_km - cuts.lowest_km);
-    cuts.to = p_.signed_cube_root(to_km - cuts.lowest_km);
+    P::Cuts cuts =
+        p_.part_of(p_.cuts_of(path.altitude_km, path.mu, path.length_km), from_km, to_km);
     Value light(0);
     double view[P::MEDIA_SIZE], column[P::MEDIA_SIZE], density[P::MEDIA_SIZE];
     glm::dvec4 phase[P::MEDIA_GROUPS_SIZE], inscatter[P::GROUPS_SIZE] = {};
