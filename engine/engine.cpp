@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <unordered_map>
 
 #include "engine/display/compositor.h"
 #include "engine/image/encode.h"
 #include "engine/irradiance.h"
 #include "engine/methods/method.h"
 #include "engine/optics/colour.h"
+#include "engine/planner/nearby.h"
 #include "engine/planner/planner.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
@@ -128,6 +130,7 @@ struct Engine::Parts {
   std::vector<std::unique_ptr<Method>> methods;
   Compositor compositor;
   DeviceDescription description;
+  std::unordered_map<std::string, Plan> plans;  ///< by the scene that stands for those alike
 
   Method& method(const std::string& name) {
     for (auto& m : methods) {
@@ -233,7 +236,20 @@ struct Engine::Parts {
     return make_plan({scene, rays, methods, probe});
   }
 
+  /// Of frames that are nearly alike one is planned for all, unless this very one is to be
+  /// verified.
   Plan plan_frame(const Scene& scene, const Watch& watch) {
+    if (scene.method.verify) return plan_this_frame(scene, watch);
+    constexpr std::size_t most_plans = 4096;
+    Scene alike = nearby(scene);
+    std::string key = canonical(alike).dump();
+    if (auto known = plans.find(key); known != plans.end()) return known->second;
+    if (plans.size() >= most_plans) plans.clear();
+    Plan plan = plan_this_frame(alike, watch);
+    return plans[key] = std::move(plan);
+  }
+
+  Plan plan_this_frame(const Scene& scene, const Watch& watch) {
     Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
     double rays = static_cast<double>(scene.image.width) * scene.image.height;
     return plan(scene, stratified_rays(camera, probes), rays, watch);

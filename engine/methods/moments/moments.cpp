@@ -309,7 +309,7 @@ const MethodDescription& moments_description() {
                  "Azimuths of the camera's sky, in half a turn.", 4, 128, 24)},
       .ladder = {sizes(2, 8, 16, 6, 4, 6, 4, 12, 32, 12),
                  sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24),
-                 sizes(6, 12, 32, 12, 12, 12, 8, 20, 72, 36)},
+                 sizes(6, 10, 24, 10, 8, 8, 8, 20, 64, 32)},
   };
   return description;
 }

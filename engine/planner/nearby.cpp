@@ -1,0 +1,62 @@
+#include "engine/planner/nearby.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cyanometer {
+namespace {
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+/// To powers of a ratio.
+double rounded_by_ratio(double value, double ratio) {
+  return value > 0 ? std::pow(ratio, std::round(std::log(value) / std::log(ratio))) : value;
+}
+
+double sun_step_deg(double elevation_deg) {
+  if (elevation_deg > 20) return 2;
+  return elevation_deg > 5 ? 1 : 0.5;
+}
+
+/// The same shape with about as many pixels.
+void round_size(Image& image) {
+  double pixels = static_cast<double>(image.width) * image.height;
+  double scale = std::sqrt(rounded_by_ratio(pixels, 2) / pixels);
+  bool fixed_shape = image.width == 2 * image.height || image.height == 6 * image.width;
+  int width = std::max(1, static_cast<int>(std::lround(image.width * scale)));
+  int height = std::max(1, static_cast<int>(std::lround(image.height * scale)));
+  if (fixed_shape) {
+    if (image.width == 2 * image.height) width = 2 * height;
+    if (image.height == 6 * image.width) height = 6 * width;
+  }
+  image.width = width;
+  image.height = height;
+}
+
+}  // namespace
+
+Scene nearby(const Scene& scene) {
+  Scene near = scene;
+  double elevation = near.sun.elevation_deg;
+  near.sun.elevation_deg = std::clamp(rounded(elevation, sun_step_deg(elevation)), -90.0, 90.0);
+  Camera& camera = near.camera;
+  double step = std::min(camera.fov_deg / 8, 5.0);
+  camera.pitch_deg = std::clamp(rounded(camera.pitch_deg, step), -90.0, 90.0);
+  camera.roll_deg = rounded(camera.roll_deg, 15);
+  // Only the angle between heading and sun matters.
+  near.sun.azimuth_deg = rounded(
+      std::remainder(scene.sun.azimuth_deg - camera.heading_deg, 360), std::max(step, 1.0));
+  camera.heading_deg = 0;
+  if (camera.altitude_km < near.atmosphere.thickness_km) {
+    camera.altitude_km =
+        std::min(rounded_by_ratio(camera.altitude_km, 1.25), near.atmosphere.thickness_km);
+  }
+  camera.latitude_deg = camera.longitude_deg = camera.sidereal_time_deg = 0;
+  near.image = {};
+  near.image.width = scene.image.width;
+  near.image.height = scene.image.height;
+  round_size(near.image);
+  return near;
+}
+
+}  // namespace cyanometer

@@ -1,0 +1,15 @@
+// One scene for all that are nearly alike, so that what was measured for one frame of a
+// sequence holds for the next.
+#pragma once
+
+#include "engine/scene/scene.h"
+
+namespace cyanometer {
+
+/// The scene with its sun and its camera on a grid that is fine against what errors change
+/// over: the sun to a degree or two, half of one when low; the camera to an eighth of its field
+/// of view, its altitude to a quarter; the number of pixels to a factor of two. A function of
+/// the scene alone.
+Scene nearby(const Scene& scene);
+
+}  // namespace cyanometer
