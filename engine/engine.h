@@ -67,8 +67,8 @@ struct Frame {
   const unsigned char* rgbx = nullptr;  ///< 4 bytes a pixel, sRGB; null where not asked for
   double exposure_ev = 0;
   double white_luminance = 0;  ///< cd/m^2 of 1.0, 0 where the planes are radiances
-  double prepare_ms = 0;  ///< plan and tables
-  double render_ms = 0;   ///< the rest of the time on the device
+  double prepare_ms = 0;       ///< plan and tables
+  double render_ms = 0;        ///< the rest of the time on the device
   Plan plan;
   std::string description;  ///< JSON: canonical scene, method, error, version: makes it again
   std::shared_ptr<void> storage;  ///< keeps the pixels alive
