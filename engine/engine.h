@@ -110,7 +110,8 @@ struct MethodDescription {
   bool random = false;              ///< its values have standard errors
   std::vector<std::string> limits;  ///< where it is not valid, in words
   std::vector<MethodOption> options;
-  /// Settings of all options worth choosing from, cheapest first; `auto` looks at no others.
+  /// Settings of all options that `auto` may choose from, cheapest first; none where tables
+  /// take seconds, which only who knows that many frames will follow should spend.
   std::vector<std::map<std::string, double>> ladder = {};
 };
 /// All methods there are, in the order of API.md; `auto` is not one of them.

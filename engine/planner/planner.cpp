@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "engine/accuracy/error.h"
@@ -134,18 +135,23 @@ class Planner {
 
   /// With its error.
   Choice judged(Choice given) const {
-    MethodOptions options = given.options;
-    double shrunk = 1;
-    if (given.method->description().random) {
-      // Noise falls with the root of the number of walks, so a few tell of many.
-      constexpr double most_walks = 64;
-      double& walks = options.at("samples_per_pixel");
-      shrunk = std::sqrt(std::min(walks, most_walks) / walks);
-      walks = std::min(walks, most_walks);
-    }
-    double difference = measure_error(probe(*given.method, options), best_).error;
-    given.error = std::min(1.0, frame_over_sample * difference * shrunk + best_error_);
+    double difference = given.method->description().random
+                            ? noise_of(given)
+                            : measure_error(probe(*given.method, given.options), best_).error;
+    given.error = std::min(1.0, frame_over_sample * difference + best_error_);
     return given;
+  }
+
+  /// Noise falls with the root of the number of walks, so that of a few, looked at once, tells
+  /// of many.
+  double noise_of(const Choice& given) const {
+    constexpr double few_walks = 16;
+    if (!few_walks_noise_) {
+      MethodOptions options = given.options;
+      options.at("samples_per_pixel") = few_walks;
+      few_walks_noise_ = measure_error(probe(*given.method, options), best_).error;
+    }
+    return *few_walks_noise_ * std::sqrt(few_walks / given.options.at("samples_per_pixel"));
   }
 
   const PlanInputs& in_;
@@ -155,6 +161,7 @@ class Planner {
   const Method* judge_ = nullptr;
   Samples best_;
   double best_error_ = 0;
+  mutable std::optional<double> few_walks_noise_;
 };
 
 /// As many as colour needs, told from single scattering.

@@ -101,28 +101,6 @@ MethodOption nodes(std::string name, std::string title, std::string description,
           .logarithmic = most > 4};
 }
 
-/// Small tables, the usual ones, and fine ones.
-std::vector<MethodOptions> ladder(const std::vector<MethodOption>& options) {
-  const std::vector<MethodOptions> changes{
-      {{"altitudes", 10}, {"zeniths", 14}, {"suns", 24}, {"azimuths", 7}, {"samples", 16}},
-      {},
-      {{"zeniths", 40},
-       {"azimuths", 17},
-       {"source_zeniths", 25},
-       {"source_azimuths", 13},
-       {"suns", 40},
-       {"samples", 32},
-       {"view_nodes", 8}}};
-  std::vector<MethodOptions> settings;
-  for (const MethodOptions& changed : changes) {
-    settings.emplace_back(changed);
-    for (const MethodOption& option : options) {
-      settings.back().emplace(option.name, option.default_value);
-    }
-  }
-  return settings;
-}
-
 MethodDescription describe() {
   MethodDescription description{
       .name = "bruneton",
@@ -178,7 +156,6 @@ MethodDescription describe() {
                  "colours of the molecules' table.",
                  0, 2, 0)},
   };
-  description.ladder = ladder(description.options);
   return description;
 }
 

@@ -307,9 +307,8 @@ const MethodDescription& moments_description() {
                  "Elevations of the camera's sky, and as many of its ground.", 8, 256, 48),
            whole("sky_azimuths", "Sky azimuths",
                  "Azimuths of the camera's sky, in half a turn.", 4, 128, 24)},
-      .ladder = {sizes(2, 8, 16, 6, 4, 6, 4, 12, 32, 12),
-                 sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24),
-                 sizes(6, 10, 24, 10, 8, 8, 8, 20, 64, 32)},
+      .ladder = {sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24),
+                 sizes(6, 16, 24, 10, 8, 12, 8, 20, 64, 32)},
   };
   return description;
 }
