@@ -58,6 +58,7 @@ for (const size of Object.keys(SIZES)) {
       for (const [section, members] of Object.entries(schema.properties)) {
         for (const [name, member] of Object.entries(members.properties ?? {})) {
           if (!member['x-slider'] || /^(width|height|.*_samples|seed)$/.test(name)) continue;
+          if (member['x-methods']) continue;  // drawn when one of these methods is chosen
           if (member.type !== 'number' && member.type !== 'integer') continue;
           const control = person.control(`${section}.${name}`);
           assert.equal(await control.locator('input[type=range]').count(), 1, `${section}.${name}`);
@@ -171,7 +172,7 @@ for (const size of Object.keys(SIZES)) {
     visit(size, 'the frame says its speed, method, options, error and exposure', async (person, page) => {
       for (const fact of ['Render', 'Method', 'Options', 'Error', 'Exposure']) {
         const text = await page.locator(`[data-fact=${fact}]`).innerText();
-        assert.match(text, /\d|Nishita/, fact);
+        assert.match(text, /\d|Nishita|Raymarch|Hillaire|Bruneton|Moments|Path/, fact);
         assert.doesNotMatch(text, /\?/, fact);
       }
       await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
