@@ -308,10 +308,19 @@ void Engine::Parts::display(const Scene& scene, const Output& output, const Watc
 
 Frame Engine::render(const Scene& scene, const Watch& watch) {
   auto start = Clock::now();
+  Plan plan = parts_->plan_frame(scene, watch);
+  double planning_ms = ms_since(start);
+  Frame frame = render(scene, plan, watch);
+  frame.prepare_ms += planning_ms;
+  return frame;
+}
+
+Frame Engine::render(const Scene& scene, const Plan& plan, const Watch& watch) {
+  auto start = Clock::now();
   Frame frame;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
-  frame.plan = parts_->plan_frame(scene, watch);
+  frame.plan = plan;
   Problem problem = make_problem(scene, frame.plan.wavelengths_nm);
   Output output = make_output(scene, frame.plan.wavelengths_nm);
   std::vector<PlaneGroup> groups = plane_groups(scene, problem, output);
@@ -371,22 +380,42 @@ void scale_by(const std::vector<double>& irradiance, Samples& radiance) {
 
 }  // namespace
 
+namespace {
+
+std::vector<glm::dvec3> unit_vectors(const std::vector<Direction>& directions) {
+  std::vector<glm::dvec3> vectors;
+  for (const Direction& d : directions) vectors.push_back(unit_vector(d));
+  return vectors;
+}
+
+}  // namespace
+
 Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& directions,
                            bool irradiance, const Watch& watch) {
   auto start = Clock::now();
   // Errors of radiances are always by wavelength.
   Scene spectral = scene;
   spectral.spectrum.colour = Colour::channels;
-  std::vector<glm::dvec3> rays;
-  for (const Direction& d : directions) rays.push_back(unit_vector(d));
-  std::vector<glm::dvec3> probe(
-      rays.begin(), rays.begin() + std::min<std::ptrdiff_t>(probes, std::ssize(rays)));
-  Radiances result;
   if (scene.spectrum.wavelengths_nm.empty()) {
     spectral.spectrum.wavelengths_nm = colour_wavelengths(16);
   }
-  result.plan = parts_->plan(spectral, probe, static_cast<double>(rays.size()), watch);
-  result.wavelengths_nm = result.plan.wavelengths_nm;
+  std::vector<glm::dvec3> rays = unit_vectors(directions);
+  std::vector<glm::dvec3> probe(
+      rays.begin(), rays.begin() + std::min<std::ptrdiff_t>(probes, std::ssize(rays)));
+  Plan plan = parts_->plan(spectral, probe, static_cast<double>(rays.size()), watch);
+  double planning_ms = ms_since(start);
+  Radiances result = radiance(scene, directions, irradiance, plan, watch);
+  result.prepare_ms += planning_ms;
+  return result;
+}
+
+Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& directions,
+                           bool irradiance, const Plan& plan, const Watch& watch) {
+  auto start = Clock::now();
+  std::vector<glm::dvec3> rays = unit_vectors(directions);
+  Radiances result;
+  result.plan = plan;
+  result.wavelengths_nm = plan.wavelengths_nm;
   Problem problem = make_problem(scene, result.wavelengths_nm);
   std::vector<double> sunlight = make_output(scene, result.wavelengths_nm).irradiance;
   result.prepare_ms = ms_since(start);
@@ -424,6 +453,8 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   result.render_ms = ms_since(rendering) - tables_ms;
   return result;
 }
+
+void Engine::forget_tables() { parts_->tables.clear(); }
 
 TableUse Engine::tables() const { return {parts_->tables.bytes(), parts_->tables.making_ms()}; }
 

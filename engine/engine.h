@@ -113,6 +113,8 @@ struct MethodDescription {
   /// Settings of all options that `auto` may choose from, cheapest first; none where tables
   /// take seconds, which only who knows that many frames will follow should spend.
   std::vector<std::map<std::string, double>> ladder = {};
+  /// Changes of the defaults that are charted beside those, cheapest first.
+  std::vector<std::map<std::string, double>> variations = {};
 };
 /// All methods there are, in the order of API.md; `auto` is not one of them.
 const std::vector<MethodDescription>& methods();
@@ -140,10 +142,17 @@ class Engine {
   Frame render(const Scene& scene, const Watch& watch = {});
   Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
                      bool irradiance, const Watch& watch = {});
+  /// The same two by a plan that is given: nothing is measured for them, and the error that
+  /// they state is the plan's.
+  Frame render(const Scene& scene, const Plan& plan, const Watch& watch = {});
+  Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
+                     bool irradiance, const Plan& plan, const Watch& watch = {});
 
   /// The device in use, as it enters an ETag and the logs.
   const DeviceDescription& device() const;
   TableUse tables() const;
+  /// Drops all tables, as though no frame had been made yet.
+  void forget_tables();
   /// Dispatches every pipeline once, so that the first request finds them compiled.
   void warm();
 

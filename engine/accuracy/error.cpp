@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace cyanometer {
 namespace {
+
+using Pixels = std::vector<std::vector<double>>;
 
 double median_of_positive(const std::vector<std::vector<double>>& pixels, std::size_t channel) {
   std::vector<double> positive;
@@ -18,6 +21,22 @@ double median_of_positive(const std::vector<std::vector<double>>& pixels, std::s
   return (*middle + *std::max_element(positive.begin(), middle)) / 2;
 }
 
+/// (L - from) in the scale that L and its reference set.
+std::vector<double> differences_from(const Pixels& from, const Pixels& values,
+                                     const Pixels& reference) {
+  std::size_t channels = values.empty() ? 0 : values.front().size();
+  std::vector<double> differences(values.size() * channels, 0.0);
+  for (std::size_t c = 0; c < channels; ++c) {
+    double floor = 0.01 * median_of_positive(reference, c);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      double l = values[i][c];
+      double scale = std::max(l, reference[i][c]) + floor;
+      differences[i * channels + c] = scale > 0 ? (l - from[i][c]) / scale : 0;
+    }
+  }
+  return differences;
+}
+
 /// The smallest value that at least the share `p` of all values does not exceed.
 double percentile(std::vector<double> values, double p) {
   if (values.empty()) return 0;
@@ -27,21 +46,39 @@ double percentile(std::vector<double> values, double p) {
   return *at;
 }
 
+/// The error of values of which the squares are known but for noise: some of them may be
+/// negative.
+double error_of_squares(const std::vector<double>& squares) {
+  double sum = 0;
+  for (double square : squares) sum += square;
+  double rms = std::sqrt(std::max(sum, 0.0) / static_cast<double>(squares.size()));
+  double p99 = std::sqrt(std::max(percentile(squares, 0.99), 0.0));
+  return std::max(rms, p99 / 3);
+}
+
+/// The error of pixels drawn with replacement, many times over; ascending.
+std::vector<double> bootstrap(const std::vector<double>& squares, std::size_t channels) {
+  constexpr int samples = 200;
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::size_t> pixel(0, squares.size() / channels - 1);
+  std::vector<double> errors;
+  std::vector<double> drawn(squares.size());
+  for (int sample = 0; sample < samples; ++sample) {
+    for (std::size_t i = 0; i < drawn.size(); i += channels) {
+      std::size_t from = pixel(random) * channels;
+      for (std::size_t c = 0; c < channels; ++c) drawn[i + c] = squares[from + c];
+    }
+    errors.push_back(error_of_squares(drawn));
+  }
+  std::ranges::sort(errors);
+  return errors;
+}
+
 }  // namespace
 
 std::vector<double> relative_differences(const std::vector<std::vector<double>>& values,
                                          const std::vector<std::vector<double>>& reference) {
-  std::size_t channels = values.empty() ? 0 : values.front().size();
-  std::vector<double> differences(values.size() * channels, 0.0);
-  for (std::size_t c = 0; c < channels; ++c) {
-    double floor = 0.01 * median_of_positive(reference, c);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      double l = values[i][c], exact = reference[i][c];
-      double scale = std::max(l, exact) + floor;
-      differences[i * channels + c] = scale > 0 ? (l - exact) / scale : 0;
-    }
-  }
-  return differences;
+  return differences_from(reference, values, reference);
 }
 
 ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
@@ -61,6 +98,35 @@ ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
   measure.p99 = percentile(std::move(d), 0.99);
   measure.error = std::max(std::sqrt(squares / count), measure.p99 / 3);
   return measure;
+}
+
+EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const Pixels& half_b) {
+  Pixels mean = mean_of(half_a, half_b);
+  std::vector<double> a = differences_from(half_a, values, mean),
+                      b = differences_from(half_b, values, mean);
+  EstimatedError estimate;
+  if (a.empty()) return estimate;
+  std::vector<double> squares(a.size());
+  ErrorMeasure& measure = estimate.measure;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    squares[i] = a[i] * b[i];
+    measure.bias += (a[i] + b[i]) / 2 / static_cast<double>(a.size());
+    measure.max = std::max(measure.max, std::sqrt(std::max(squares[i], 0.0)));
+  }
+  measure.p99 = std::sqrt(std::max(percentile(squares, 0.99), 0.0));
+  measure.error = error_of_squares(squares);
+  std::vector<double> errors = bootstrap(squares, values.front().size());
+  estimate.low = errors[errors.size() / 40];
+  estimate.high = errors[errors.size() - 1 - errors.size() / 40];
+  return estimate;
+}
+
+Pixels mean_of(const Pixels& a, const Pixels& b) {
+  Pixels mean = a;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t c = 0; c < a[i].size(); ++c) mean[i][c] = (a[i][c] + b[i][c]) / 2;
+  }
+  return mean;
 }
 
 }  // namespace cyanometer

@@ -36,6 +36,12 @@ std::shared_ptr<const Tables> TableCache::timed(
   return make();
 }
 
+void TableCache::clear() {
+  entries_.clear();
+  places_.clear();
+  bytes_ = 0;
+}
+
 void TableCache::make_room(std::size_t bytes) {
   while (!entries_.empty() && bytes_ + bytes > most_bytes_) {
     const Entry& oldest = entries_.back();

@@ -33,6 +33,9 @@ class TableCache {
     return std::static_pointer_cast<const T>(find_or_make(key, make));
   }
 
+  /// Gives up all of them; who still holds one keeps it.
+  void clear();
+
   std::size_t bytes() const { return bytes_; }
   /// Time spent in making tables so far, ms.
   double making_ms() const { return making_ms_; }

@@ -48,5 +48,6 @@ void add_health(CLI::App& app);
 void add_contact_sheet(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_chart(CLI::App& app);
 
 }  // namespace cyanometer

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "server/config.h"
+#include "tests/accuracy/temporary_folder.h"
 #include "tests/api/client.h"
 
 namespace cyanometer::testing {
@@ -28,20 +29,6 @@ std::string read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-/// A folder of this test's own.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "cyanometer-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 /// A run of the program; its output is read when it has ended.
 class Program {
@@ -92,13 +79,13 @@ class Program {
   }
 
  private:
-  Folder folder_;
+  TemporaryFolder folder_;
   pid_t pid_;
 };
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
   for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
-                           "contact-sheet", "schema"}) {
+                           "contact-sheet", "schema", "bench", "chart"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -113,7 +100,7 @@ TEST(Command, AnUnknownOneIsRefused) {
 }
 
 TEST(Command, RenderTakesItsFormatFromTheExtension) {
-  Folder folder;
+  TemporaryFolder folder;
   const std::vector<std::pair<std::string, std::string>> kinds{{"png", "\x89PNG"},
                                                                {"exr", "\x76\x2f\x31\x01"},
                                                                {"npy", "\x93NUMPY"},
@@ -127,7 +114,7 @@ TEST(Command, RenderTakesItsFormatFromTheExtension) {
 }
 
 TEST(Command, RenderRefusesAnExtensionThatContradictsTheScene) {
-  Folder folder;
+  TemporaryFolder folder;
   auto scene = small_scene();
   scene["image"]["format"] = "exr";
   Program run({"render", "-", "-o", folder / "sky.png"}, scene.dump());
@@ -141,6 +128,27 @@ TEST(Command, RenderRefusesASceneByName) {
   EXPECT_EQ(run.wait(), 2);
   EXPECT_THAT(run.err(), ::testing::HasSubstr("/planet/radius_km"));
   EXPECT_TRUE(run.out().empty());
+}
+
+TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {
+  TemporaryFolder folder;
+  const std::vector<std::string> arguments{"chart",        "-",
+                                           "--method",     "raymarch",
+                                           "--rays",       "16",
+                                           "--pixels",     "64",
+                                           "--references", folder / "references",
+                                           "-o",           folder / "chart"};
+  const std::string scene = R"({"method":{"scattering_orders":1}})";
+  Program run(arguments, scene);
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("raymarch"));
+  const std::string document = read_file(folder / "chart" / "chart.json");
+  EXPECT_THAT(read_file(folder / "chart" / "chart.svg"), ::testing::StartsWith("<svg"));
+  EXPECT_THAT(read_file(folder / "chart" / "chart.csv"), ::testing::StartsWith("scene,"));
+  Program again(arguments, scene);
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  EXPECT_TRUE(again.err().empty()) << again.err();
+  EXPECT_EQ(read_file(folder / "chart" / "chart.json"), document);
 }
 
 TEST(Command, RenderGivesWhatTheServerGives) {
@@ -182,7 +190,7 @@ TEST(Command, PlanRadianceAndSchemaAnswerAsTheRoutesDo) {
 }
 
 TEST(Command, TheContactSheetIsOnePictureAsWideAsAsked) {
-  Folder folder;
+  TemporaryFolder folder;
   const auto file = folder / "sheet.png";
   Program run({"contact-sheet", "-o", file, "--width", "200", "--columns", "10"});
   EXPECT_EQ(run.wait(), 0) << run.err();

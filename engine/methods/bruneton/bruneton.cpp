@@ -155,6 +155,12 @@ MethodDescription describe() {
                  "0: by quadrature; 1: from a table of each constituent; 2: particles in the "
                  "colours of the molecules' table.",
                  0, 2, 0)},
+      .variations = {{{"altitudes", 8}, {"zeniths", 12}, {"suns", 16}, {"azimuths", 7}},
+                     {{"gather", 0}},
+                     {{"mapping", 1}},
+                     {{"mapping", 0}},
+                     {{"first_order", 1}},
+                     {{"first_order", 2}}},
   };
   return description;
 }

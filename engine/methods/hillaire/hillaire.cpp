@@ -190,7 +190,12 @@ const MethodDescription& hillaire_description() {
                   {"sky_elevations", 108},
                   {"view_samples", 16},
                   {"forward_share", 0.5},
-                  {"march_pixels", 0}}}};
+                  {"march_pixels", 0}}},
+      .variations = {{{"sky_azimuths", 16}, {"sky_elevations", 32}, {"view_samples", 8}},
+                     {{"sky_azimuths", 32}, {"sky_elevations", 64}, {"view_samples", 12}},
+                     {{"sky_azimuths", 192}, {"sky_elevations", 216}, {"view_samples", 32}},
+                     {{"march_pixels", 1}},
+                     {{"forward_share", 0}}}};
   return description;
 }
 

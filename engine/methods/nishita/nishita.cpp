@@ -165,6 +165,14 @@ const MethodDescription& nishita_description() {
                    .default_value = 16,
                    .integer = true,
                    .logarithmic = true}},
+      .variations = {{{"view_samples", 4}, {"light_samples", 4}},
+                     {{"view_samples", 8}, {"light_samples", 4}},
+                     {{"view_samples", 16}, {"light_samples", 4}},
+                     {{"view_samples", 16}, {"light_samples", 8}},
+                     {{"view_samples", 32}, {"light_samples", 8}},
+                     {{"view_samples", 64}, {"light_samples", 16}},
+                     {{"view_samples", 128}, {"light_samples", 32}},
+                     {{"view_samples", 256}, {"light_samples", 64}}},
   };
   return description;
 }

@@ -1,0 +1,40 @@
+// The converged solution of a scene along some of its rays, kept on disk: `path`, run until its
+// noise is small, as two independent halves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "engine/engine.h"
+
+namespace cyanometer {
+
+struct Reference {
+  std::vector<Direction> directions;
+  /// [half][direction][wavelength], in the scene's units: two estimates with nothing in common.
+  std::array<std::vector<std::vector<double>>, 2> halves;
+  std::int64_t walks = 0;  ///< along each direction, in each half
+  double noise = 0;        ///< the error of the halves' mean, in the contract's measure
+};
+
+/// When a reference is good enough.
+struct ReferenceGoal {
+  int rays = 512;
+  double noise = 0.003;
+  std::int64_t most_walks = 16384;  ///< along a ray in each half, however noisy that leaves it
+};
+
+/// Where references are kept where nothing else is asked: under XDG_CACHE_HOME or ~/.cache.
+std::filesystem::path reference_folder();
+
+/// The reference on `goal.rays` stratified rays of the scene. Walks are added to what `folder`
+/// keeps of the same scene and version, and kept again after every pass, so that work that
+/// was cancelled goes on. A reference of one order or none has no noise and one pass.
+/// @param scene has its wavelengths given; its method and its display do not matter
+/// @throws OverLimit, Cancelled, DeviceLost
+Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal& goal,
+                         const std::filesystem::path& folder, const Watch& watch = {});
+
+}  // namespace cyanometer
