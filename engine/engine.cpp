@@ -275,6 +275,13 @@ Plan Engine::plan(const Scene& scene, const Watch& watch) {
   return parts_->plan_frame(scene, watch);
 }
 
+double Engine::expected_ms(const Scene& scene, const Plan& plan) {
+  double rays = static_cast<double>(scene.image.width) * scene.image.height;
+  return cyanometer::expected_ms(parts_->method(plan.method), plan.options,
+                                 make_problem(scene, some_wavelengths_of(scene)), rays,
+                                 plan.wavelengths_nm.size());
+}
+
 void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
                                 const std::vector<PlaneGroup>& groups, const Watch& watch,
                                 Frame& frame, FrameStore& store) {

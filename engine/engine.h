@@ -148,6 +148,9 @@ class Engine {
   Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
                      bool irradiance, const Plan& plan, const Watch& watch = {});
 
+  /// What a frame of the scene would take by such a plan, ms, as plans reckon it.
+  double expected_ms(const Scene& scene, const Plan& plan);
+
   /// The device in use, as it enters an ETag and the logs.
   const DeviceDescription& device() const;
   TableUse tables() const;

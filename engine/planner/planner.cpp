@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -50,15 +51,81 @@ bool single_scattering(const Scene& scene) {
   return orders && *orders <= 1;
 }
 
+/// At most four, which every method computes at once.
+std::vector<double> few_wavelengths(const Scene& scene) {
+  constexpr std::size_t most = 4;
+  const std::vector<double>& all = scene.spectrum.wavelengths_nm;
+  if (all.empty()) return colour_wavelengths(most);
+  if (all.size() <= most) return all;
+  std::vector<double> few;
+  for (std::size_t i = 0; i < most; ++i) few.push_back(all[i * (all.size() - 1) / (most - 1)]);
+  return few;
+}
+
+/// Says how wrong what some rays show may be.
+class Judge {
+ public:
+  virtual ~Judge() = default;
+  virtual double bound(const Samples& samples) = 0;
+};
+
+/// By the best solution that takes no longer than a frame, its own error told from the setting
+/// before.
+class QuickJudge final : public Judge {
+ public:
+  QuickJudge(const Method& method, const TraceProbe& probe,
+             const std::vector<double>& wavelengths_nm) {
+    const MethodDescription& description = method.description();
+    const auto& ladder = description.ladder;
+    best_ = probe(description.name, ladder.back(), wavelengths_nm);
+    Samples coarser = probe(description.name, ladder[ladder.size() - 2], wavelengths_nm);
+    best_error_ = measure_error(coarser, best_).error;
+  }
+
+  double bound(const Samples& samples) override {
+    return frame_over_sample * measure_error(samples, best_).error + best_error_;
+  }
+
+ private:
+  Samples best_;
+  double best_error_ = 0;
+};
+
+/// By random walks, as many as it takes to see a third of what is asked, within some seconds.
+class WalkJudge final : public Judge {
+ public:
+  WalkJudge(const MethodOptions& options, const TraceProbe& probe,
+            const std::vector<double>& wavelengths_nm, double asked) {
+    constexpr double first_walks = 64, most_walks = 8192;
+    // Far from the seeds that a frame of the method itself may have.
+    double seed = 1 << 30;
+    for (double walks = first_walks; walks <= most_walks; walks *= 2) {
+      for (Samples& half : halves_) {
+        MethodOptions pass = options;
+        pass.at("samples_per_pixel") = walks;
+        pass.at("seed") = seed++;
+        half = probe("path", pass, wavelengths_nm);
+      }
+      if (measure_error(halves_[0], halves_[1]).error / 2 <= asked / 3) break;
+    }
+  }
+
+  double bound(const Samples& samples) override {
+    return measure_error(samples, halves_[0], halves_[1]).high;
+  }
+
+ private:
+  std::array<Samples, 2> halves_;
+};
+
 class Planner {
  public:
   Planner(const PlanInputs& inputs, const Wavelengths& wavelengths)
       : in_(inputs),
         wavelengths_(wavelengths),
-        few_(few_wavelengths()),
-        problem_(make_problem(in_.scene, few_)) {
-    judge();
-  }
+        few_(few_wavelengths(in_.scene)),
+        problem_(make_problem(in_.scene, few_)),
+        judge_(make_judge()) {}
 
   Choice as_asked() const {
     const MethodChoice& asked = in_.scene.method;
@@ -90,23 +157,19 @@ class Planner {
     throw std::logic_error("no method is called " + name);
   }
 
-  /// At most four, which every method computes at once.
-  std::vector<double> few_wavelengths() const {
-    constexpr std::size_t most = 4;
-    const std::vector<double>& all = in_.scene.spectrum.wavelengths_nm;
-    if (all.empty()) return colour_wavelengths(most);
-    if (all.size() <= most) return all;
-    std::vector<double> few;
-    for (std::size_t i = 0; i < most; ++i)
-      few.push_back(all[i * (all.size() - 1) / (most - 1)]);
-    return few;
+  std::unique_ptr<Judge> make_judge() const {
+    if (in_.scene.method.verify && !single_scattering(in_.scene)) {
+      return std::make_unique<WalkJudge>(method("path").description().ladder.front(), in_.probe,
+                                         few_,
+                                         in_.scene.method.max_error.value_or(usual_error));
+    }
+    return std::make_unique<QuickJudge>(
+        method(single_scattering(in_.scene) ? "raymarch" : "moments"), in_.probe, few_);
   }
 
   Choice choice(const Method& method, const MethodOptions& options) const {
-    // Columns are the same at every wavelength; the rest is done for four of them at a time.
-    double groups = std::ceil(static_cast<double>(wavelengths_.nm.size()) / 4);
-    double evaluations = method.evaluations(problem_, options, in_.rays) * (1 + groups) / 2;
-    return {&method, options, evaluations / nominal_evaluations_per_ms, 1};
+    return {&method, options,
+            expected_ms(method, options, problem_, in_.rays, wavelengths_.nm.size()), 1};
   }
 
   /// Cheapest first.
@@ -125,20 +188,11 @@ class Planner {
     return in_.probe(method.description().name, options, few_);
   }
 
-  void judge() {
-    judge_ = &method(single_scattering(in_.scene) ? "raymarch" : "moments");
-    const auto& ladder = judge_->description().ladder;
-    best_ = probe(*judge_, ladder.back());
-    Samples coarser = probe(*judge_, ladder[ladder.size() - 2]);
-    best_error_ = measure_error(coarser, best_).error;
-  }
-
   /// With its error.
   Choice judged(Choice given) const {
-    double difference = given.method->description().random
-                            ? noise_of(given)
-                            : measure_error(probe(*given.method, given.options), best_).error;
-    given.error = std::min(1.0, frame_over_sample * difference + best_error_);
+    given.error = std::min(1.0, given.method->description().random
+                                    ? noise_of(given)
+                                    : judge_->bound(probe(*given.method, given.options)));
     return given;
   }
 
@@ -149,7 +203,7 @@ class Planner {
     if (!few_walks_noise_) {
       MethodOptions options = given.options;
       options.at("samples_per_pixel") = few_walks;
-      few_walks_noise_ = measure_error(probe(*given.method, options), best_).error;
+      few_walks_noise_ = judge_->bound(probe(*given.method, options));
     }
     return *few_walks_noise_ * std::sqrt(few_walks / given.options.at("samples_per_pixel"));
   }
@@ -158,9 +212,7 @@ class Planner {
   const Wavelengths& wavelengths_;
   std::vector<double> few_;
   Problem problem_;
-  const Method* judge_ = nullptr;
-  Samples best_;
-  double best_error_ = 0;
+  std::unique_ptr<Judge> judge_;
   mutable std::optional<double> few_walks_noise_;
 };
 
@@ -213,6 +265,14 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
 }
 
 }  // namespace
+
+double expected_ms(const Method& method, const MethodOptions& options, const Problem& problem,
+                   double rays, std::size_t wavelengths) {
+  // Columns are the same at every wavelength; the rest is done for four of them at a time.
+  double groups = std::ceil(static_cast<double>(wavelengths) / 4);
+  double evaluations = method.evaluations(problem, options, rays) * (1 + groups) / 2;
+  return evaluations / nominal_evaluations_per_ms;
+}
 
 Plan make_plan(const PlanInputs& inputs) {
   const MethodChoice& asked = inputs.scene.method;

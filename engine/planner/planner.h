@@ -24,8 +24,15 @@ struct PlanInputs {
   TraceProbe probe;  ///< the same few rays each time
 };
 
-/// Every error is measured on the probe's rays against the best solution there is, at the
-/// finest setting of its ladder, whose own error is told from the setting before.
+/// Every error is measured on the probe's rays: against the best solution that is quick, at the
+/// finest setting of its ladder, whose own error is told from the setting before; or, where the
+/// scene asks to `verify`, against random walks, which takes seconds and owes nothing to a
+/// model.
 Plan make_plan(const PlanInputs& inputs);
+
+/// Time on the device that a plan reckons with, ms.
+/// @param problem  the scene at a few wavelengths
+double expected_ms(const Method& method, const MethodOptions& options, const Problem& problem,
+                   double rays, std::size_t wavelengths);
 
 }  // namespace cyanometer

@@ -49,5 +49,6 @@ void add_contact_sheet(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_chart(CLI::App& app);
+void add_audit(CLI::App& app);
 
 }  // namespace cyanometer
