@@ -1,18 +1,14 @@
 #include "engine/methods/hillaire/hillaire.h"
 
-#include "engine/methods/hillaire/tables.h"
+#include "engine/methods/hillaire/sky_tracer.h"
 #include "engine/methods/tables/fill.h"
 #include "spirv/hillaire_march.spv.h"
-#include "spirv/hillaire_pixels.spv.h"
 
 namespace cyanometer {
 namespace {
 
 using namespace hillaire;
 
-struct PixelPush {
-  std::int32_t first, end, first_ray, rays_in_tile, all_orders;
-};
 struct MarchPush {
   std::int32_t first, end, first_ray, rays_in_tile, all_orders, samples, sun;
   float scale_height_km;
@@ -22,15 +18,14 @@ class Hillaire final : public Method {
  public:
   explicit Hillaire(vulkan::Device& device)
       : tables_(device),
-        pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 7, sizeof(PixelPush)),
-        march_(device, hillaire_march_spirv, UploadedScene::bindings + 6, sizeof(MarchPush)),
-        most_bytes_(device.limits().max_storage_range) {}
+        sky_(device),
+        march_(device, hillaire_march_spirv, UploadedScene::bindings + 6, sizeof(MarchPush)) {}
 
   const MethodDescription& description() const override { return hillaire_description(); }
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
-    Sizes sizes = Sizes::of(options);
+    Sizes sizes = Sizes::of(options, problem.scattering_orders);
     double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
     bool inside = problem.camera.altitude_km <= problem.thickness_km;
     bool table = inside && options.at("march_pixels") == 0 && problem.sun_distance_km == 0 &&
@@ -53,37 +48,17 @@ class Hillaire final : public Method {
 
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
-    Sizes sizes = Sizes::of(options);
-    bool table = reads_table(scene, options, sizes);
+    Sizes sizes = Sizes::of(options, scene.problem().scattering_orders);
+    bool table = options.at("march_pixels") == 0 && sky_.serves(scene, sizes);
     TablesOfView tables = tables_.get(tracer, scene, sizes, table);
     if (table) {
-      interpolate(tracer, scene, sizes, tables, tile);
+      sky_.trace(tracer, scene, sizes, tables, tile);
     } else {
       march(tracer, scene, sizes, tables, tile);
     }
   }
 
  private:
-  /// The sky view is of one parallel beam, from inside the air; elsewhere each pixel is
-  /// marched.
-  bool reads_table(const UploadedScene& scene, const MethodOptions& options,
-                   const Sizes& sizes) const {
-    const Problem& problem = scene.problem();
-    return options.at("march_pixels") == 0 && problem.sun_distance_km == 0 &&
-           scene.disc_points() == 1 && problem.camera.altitude_km <= problem.thickness_km &&
-           SkyView::bytes_of(scene, sizes) <= most_bytes_;
-  }
-
-  void interpolate(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
-                   const TablesOfView& tables, const Tile& tile) {
-    vulkan::Specialization specialization = constants(scene, sizes);
-    auto bindings =
-        bind(scene, *tables.air, {tables.columns->values, tables.sky->values, tile.values});
-    PixelPush push{0, 0, tile.first_ray, tile.rays, several_orders(scene.problem())};
-    fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,
-               6 * evaluations_per_node(scene), push);
-  }
-
   void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
              const TablesOfView& tables, const Tile& tile) {
     vulkan::Specialization specialization = constants(scene, sizes);
@@ -92,7 +67,7 @@ class Hillaire final : public Method {
                    0,
                    tile.first_ray,
                    tile.rays,
-                   several_orders(scene.problem()),
+                   sizes.several_orders(),
                    sizes.view_samples,
                    0,
                    scale_height_km(scene.problem())};
@@ -103,8 +78,8 @@ class Hillaire final : public Method {
   }
 
   TableMaker tables_;
-  vulkan::Kernel pixels_, march_;
-  std::size_t most_bytes_;
+  SkyTracer sky_;
+  vulkan::Kernel march_;
 };
 
 MethodOption size_option(const char* name, const char* title, const char* description,
@@ -118,6 +93,21 @@ MethodOption size_option(const char* name, const char* title, const char* descri
           .default_value = default_value,
           .integer = true,
           .logarithmic = minimum > 0};
+}
+
+/// All options, those of the sky view given.
+MethodOptions sky_sizes(int azimuths, int elevations, int view_samples) {
+  return {{"transmittance_cosines", 256},
+          {"transmittance_altitudes", 64},
+          {"multiple_suns", 32},
+          {"multiple_altitudes", 32},
+          {"multiple_directions", 64},
+          {"multiple_samples", 20},
+          {"sky_azimuths", azimuths},
+          {"sky_elevations", elevations},
+          {"view_samples", view_samples},
+          {"forward_share", 0.5},
+          {"march_pixels", 0}};
 }
 
 }  // namespace
@@ -180,20 +170,8 @@ const MethodDescription& hillaire_description() {
                "1 marches every pixel instead of reading the sky view, as is always done "
                "from outside the air and for a near or wide sun.",
                0, 1, 0)},
-      .ladder = {{{"transmittance_cosines", 256},
-                  {"transmittance_altitudes", 64},
-                  {"multiple_suns", 32},
-                  {"multiple_altitudes", 32},
-                  {"multiple_directions", 64},
-                  {"multiple_samples", 20},
-                  {"sky_azimuths", 64},
-                  {"sky_elevations", 108},
-                  {"view_samples", 16},
-                  {"forward_share", 0.5},
-                  {"march_pixels", 0}}},
+      .ladder = {sky_sizes(32, 64, 12), sky_sizes(64, 108, 16), sky_sizes(192, 216, 32)},
       .variations = {{{"sky_azimuths", 16}, {"sky_elevations", 32}, {"view_samples", 8}},
-                     {{"sky_azimuths", 32}, {"sky_elevations", 64}, {"view_samples", 12}},
-                     {{"sky_azimuths", 192}, {"sky_elevations", 216}, {"view_samples", 32}},
                      {{"march_pixels", 1}},
                      {{"forward_share", 0}}}};
   return description;

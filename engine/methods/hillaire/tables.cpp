@@ -39,10 +39,7 @@ struct SkyPush {
 };
 
 /// Terms of the series that orders two and up are; -1 all.
-int terms(const Problem& problem) {
-  int orders = problem.scattering_orders;
-  return orders < 0 ? -1 : std::max(orders - 1, 0);
-}
+int terms(const Sizes& sizes) { return sizes.orders < 0 ? -1 : std::max(sizes.orders - 1, 0); }
 
 bool has_phase_tables(const Problem& problem) {
   return std::any_of(problem.media.begin(), problem.media.end(), [](const Medium& medium) {
@@ -85,7 +82,7 @@ void fill_over_directions(Tracer& tracer, const UploadedScene& scene, const Fill
 
 }  // namespace
 
-Sizes Sizes::of(const MethodOptions& options) {
+Sizes Sizes::of(const MethodOptions& options, int orders) {
   auto option = [&](const char* name) { return static_cast<int>(options.at(name)); };
   return {{option("transmittance_cosines"), option("transmittance_altitudes")},
           option("multiple_suns"),
@@ -95,7 +92,8 @@ Sizes Sizes::of(const MethodOptions& options) {
           option("sky_azimuths"),
           option("sky_elevations"),
           option("view_samples"),
-          options.at("forward_share")};
+          options.at("forward_share"),
+          orders};
 }
 
 AirTables::AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups)
@@ -138,7 +136,7 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
   std::string air =
       key("hillaire air", scene, sizes.optical_depth.cosines, sizes.optical_depth.altitudes,
           sizes.multiple_suns, sizes.multiple_altitudes, sizes.directions,
-          sizes.multiple_samples, sizes.forward_share, terms(problem));
+          sizes.multiple_samples, sizes.forward_share, terms(sizes));
   tables.air =
       tracer.tables.get<AirTables>(air, [&] { return make_air(tracer, scene, sizes); });
   std::string altitude = bytes_of_float(start_altitude_km(problem));
@@ -162,17 +160,17 @@ std::shared_ptr<const AirTables> TableMaker::make_air(Tracer& tracer,
       std::make_shared<AirTables>(tracer.device, sizes, scene.media(), scene.groups());
   const Problem& problem = scene.problem();
   Problem scaled =
-      without_forward_peak(problem, several_orders(problem) ? sizes.forward_share : 0);
+      without_forward_peak(problem, sizes.several_orders() ? sizes.forward_share : 0);
   std::vector<glm::vec4> kept = scattering_kept(problem, scaled);
   if (!kept.empty()) tables->kept.write(0, std::as_bytes(std::span(kept)));
   tables->optical_depth =
       optical_depths_.get(tracer, UploadedScene(tracer.device, scaled), sizes.optical_depth);
-  if (!several_orders(scene.problem())) return tables;  // nothing reads them
+  if (!sizes.several_orders()) return tables;  // nothing reads them
   vulkan::Buffer parts(tracer.device, 3 * tables->log_multiple.size(), vulkan::Memory::device);
   vulkan::Buffer suns(tracer.device, 2 * tables->log_irradiance.size(), vulkan::Memory::device);
   vulkan::Specialization specialization = constants(scene, sizes);
   int texels = sizes.multiple_suns * sizes.multiple_altitudes;
-  int series = terms(problem);
+  int series = terms(sizes);
   float height_km = scale_height_km(problem);
 
   auto multiple = scene.bind({tables->optical_depth->values(), tables->kept, parts});
@@ -213,7 +211,7 @@ std::shared_ptr<const SkyView> TableMaker::make_sky(Tracer& tracer, const Upload
   auto sky = std::make_shared<SkyView>(tracer.device, SkyView::bytes_of(scene, sizes));
   vulkan::Specialization specialization = constants(scene, sizes);
   auto bindings = bind(scene, *tables.air, {tables.columns->values, sky->values});
-  SkyPush push{0, 0, sizes.view_samples, several_orders(scene.problem()),
+  SkyPush push{0, 0, sizes.view_samples, sizes.several_orders(),
                scale_height_km(scene.problem())};
   fill_table(tracer, {sky_, specialization, bindings}, sizes.azimuths * sizes.elevations,
              2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
@@ -237,10 +235,6 @@ vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes)
   all.resize(phase_tables_constant);
   all.push_back(has_phase_tables(scene.problem()));
   return all;
-}
-
-bool several_orders(const Problem& problem) {
-  return problem.scattering_orders < 0 || problem.scattering_orders > 1;
 }
 
 std::int64_t most_nodes(int samples) { return samples + samples / 2 + 12; }

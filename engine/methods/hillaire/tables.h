@@ -13,8 +13,11 @@ struct Sizes {
   int multiple_suns, multiple_altitudes, directions, multiple_samples;
   int azimuths, elevations, view_samples;
   double forward_share;
+  int orders;  ///< that are computed; -1 all
 
-  static Sizes of(const MethodOptions& options);
+  /// Whether light may be scattered or reflected more than once.
+  bool several_orders() const { return orders < 0 || orders > 1; }
+  static Sizes of(const MethodOptions& options, int orders);
 };
 
 /// Of the air alone, all without the forward peak.
@@ -77,9 +80,6 @@ class TableMaker {
 
 /// What all of the method's kernels are specialised by.
 vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes);
-
-/// Whether light may be scattered or reflected more than once.
-bool several_orders(const Problem& problem);
 
 /// Nodes of a march of so many samples, at the most: a ray cut by the planet's shadow has more.
 std::int64_t most_nodes(int samples);
