@@ -27,65 +27,7 @@ layout(push_constant) uniform Push {
   int orders;          // 1, or more
 } push;
 
-CONSTANT int AUREOLE_NODES = 129;
-
-// The aureole's function, by the fourth root of (1 - nu) / 2.
-Vec4 aureole_towards(ScatteringAngle angle, int g) {
-  Real node = sqrt(sqrt(max(0.5 * angle.one_minus_cosine, 0.0))) * Real(AUREOLE_NODES - 1);
-  int low = min(int(node), AUREOLE_NODES - 2);
-  return mix(aureole(low, g), aureole(low + 1, g), node - Real(low));
-}
-
-struct SkyPlace {
-  int at;          // of the lower elevation's and azimuth's values
-  Real elevation, azimuth;
-};
-
-SkyPlace sky_place(Path path, Vec3 axis) {
-  SkyPlace place;
-  Real elevation = elevation_share(path.direction, path.meets_ground) * Real(push.elevations - 1);
-  Real azimuth = azimuth_from(axis_forward(axis), path.direction) / PI * Real(push.azimuths - 1);
-  int e = min(int(elevation), push.elevations - 2);
-  int a = clamp(int(azimuth), 0, push.azimuths - 2);
-  place.elevation = elevation - Real(e);
-  place.azimuth = azimuth - Real(a);
-  place.at = ((e + (path.meets_ground ? push.elevations : 0)) * push.azimuths + a) * 2 * GROUPS;
-  return place;
-}
-
-Vec4 sky_value(SkyPlace place, int offset) {
-  int at = place.at + offset;
-  int up = push.azimuths * 2 * GROUPS;
-  return mix(mix(sky[at], sky[at + 2 * GROUPS], place.azimuth),
-             mix(sky[at + up], sky[at + up + 2 * GROUPS], place.azimuth), place.elevation);
-}
-
-void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
-                       INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
-  Vec3 axis = sun_axis();
-  if (path.length_km > 0.0) {
-    SkyPlace place = sky_place(path, axis);
-    ScatteringAngle angle =
-        scattering_angle(sun_ray(path.start, Vec3(0.0)).direction, path.direction);
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      Vec4 light = exp(sky_value(place, g));
-      if (PARTICLES) {
-        light = light * max(1.0 + sky_value(place, GROUPS + g) * aureole_towards(angle, g), 0.0);
-      }
-      inscatter[g] = inscatter[g] + light;
-    }
-  }
-  if (path.meets_ground) {
-    Vec3 position = path.start + path.direction * path.length_km;
-    Real node = node_of_sun(push.grid, sun_range(push.grid, 0.0), dot(position, axis) / length(position)) /
-                Real(push.grid.suns - 1) * Real(push.fine_suns - 1);
-    int s = min(int(node), push.fine_suns - 2);
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      int at = push.irradiance + s * GROUPS + g;
-      ground[g] = ground[g] + lambertian(g) * exp(mix(moments[at], moments[at + GROUPS], node - Real(s)));
-    }
-  }
-}
+#include "methods/moments_pixel.glsl"
 
 void main() {
   int i = int(gl_GlobalInvocationID.x);

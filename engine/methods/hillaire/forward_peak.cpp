@@ -58,4 +58,23 @@ std::vector<glm::vec4> scattering_kept(const Problem& problem, const Problem& sc
   return kept;
 }
 
+std::vector<glm::vec4> scattering_kept(const Problem& problem,
+                                       const std::vector<double>& shares_of_extinction) {
+  Physics<float> physics = pack<float>(problem);
+  std::vector<glm::vec4> kept;
+  for (int c = 0; c < physics.MEDIA; ++c) {
+    for (int group = 0; group < physics.GROUPS; ++group) {
+      glm::vec4 scattering = physics.scattering(c, group),
+                extinction = physics.extinction(c, group);
+      glm::vec4 share(1);
+      for (int w = 0; w < 4; ++w) {
+        if (scattering[w] <= 0) continue;
+        share[w] -= static_cast<float>(shares_of_extinction[c]) * extinction[w] / scattering[w];
+      }
+      kept.push_back(share);
+    }
+  }
+  return kept;
+}
+
 }  // namespace cyanometer::hillaire

@@ -18,4 +18,9 @@ Problem without_forward_peak(const Problem& problem, double share);
 /// and group of wavelengths, in the device's order.
 std::vector<glm::vec4> scattering_kept(const Problem& problem, const Problem& scaled);
 
+/// The same for scattering from which shares of each constituent's whole extinction were taken,
+/// by constituent in the device's order.
+std::vector<glm::vec4> scattering_kept(const Problem& problem,
+                                       const std::vector<double>& shares_of_extinction);
+
 }  // namespace cyanometer::hillaire

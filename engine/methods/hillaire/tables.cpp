@@ -93,7 +93,8 @@ Sizes Sizes::of(const MethodOptions& options, int orders) {
           option("sky_elevations"),
           option("view_samples"),
           options.at("forward_share"),
-          orders};
+          orders,
+          {}};
 }
 
 AirTables::AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups)
@@ -137,6 +138,7 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
       key("hillaire air", scene, sizes.optical_depth.cosines, sizes.optical_depth.altitudes,
           sizes.multiple_suns, sizes.multiple_altitudes, sizes.directions,
           sizes.multiple_samples, sizes.forward_share, terms(sizes));
+  for (double share : sizes.straight_on) air += bytes_of_float(share);
   tables.air =
       tracer.tables.get<AirTables>(air, [&] { return make_air(tracer, scene, sizes); });
   std::string altitude = bytes_of_float(start_altitude_km(problem));
@@ -161,7 +163,9 @@ std::shared_ptr<const AirTables> TableMaker::make_air(Tracer& tracer,
   const Problem& problem = scene.problem();
   Problem scaled =
       without_forward_peak(problem, sizes.several_orders() ? sizes.forward_share : 0);
-  std::vector<glm::vec4> kept = scattering_kept(problem, scaled);
+  std::vector<glm::vec4> kept = sizes.straight_on.empty()
+                                    ? scattering_kept(problem, scaled)
+                                    : scattering_kept(problem, sizes.straight_on);
   if (!kept.empty()) tables->kept.write(0, std::as_bytes(std::span(kept)));
   tables->optical_depth =
       optical_depths_.get(tracer, UploadedScene(tracer.device, scaled), sizes.optical_depth);

@@ -14,6 +14,9 @@ struct Sizes {
   int azimuths, elevations, view_samples;
   double forward_share;
   int orders;  ///< that are computed; -1 all
+  /// Of order one alone: the share of each constituent's extinction (in the device's order)
+  /// that does not dim light on its way to the camera; none where that is empty.
+  std::vector<double> straight_on = {};
 
   /// Whether light may be scattered or reflected more than once.
   bool several_orders() const { return orders < 0 || orders > 1; }

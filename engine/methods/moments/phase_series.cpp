@@ -160,6 +160,7 @@ PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks) {
   for (std::size_t c = 0; c < media.size(); ++c) {
     const Medium& medium = *media[c];
     layout.set_view_share(c, 1);
+    result.straight_on.push_back(0);
     if (!std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; }))
       continue;
     bool particle = is_particle(medium);
@@ -168,6 +169,7 @@ PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks) {
         particle ? all_coefficients(medium, 4 * terms) : coefficients_of(medium, terms);
     double straight = particle && peaks ? straight_on(medium, chi, degree) : 0;
     layout.set_view_share(c, 1 - straight);
+    result.straight_on.back() = straight;
     double column = column_km(medium.profile, problem.thickness_km);
     for (std::size_t w = 0; w < chi.size(); ++w) {
       double scattering = medium.scattering_per_km[w];

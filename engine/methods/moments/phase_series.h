@@ -12,6 +12,9 @@ namespace cyanometer {
 
 struct PhaseSeries {
   bool particles = false;  ///< whether any function has odd terms
+  /// By constituent in the device's order: the share of its extinction that counts as a peak
+  /// which goes straight on.
+  std::vector<double> straight_on;
   /// As shaders/methods/moments_device.glsl and moments_view.glsl lay it out.
   std::vector<glm::vec4> values;
 };

@@ -201,6 +201,7 @@ MomentTables::MomentTables(vulkan::Device& device, const Grid& grid_, const Phas
                            int degree, int groups)
     : grid(grid_),
       particles(phases.particles),
+      straight_on(phases.straight_on),
       fine_altitudes(finer_altitudes(grid.altitudes)),
       fine_suns(finer_suns(grid.suns)),
       irradiance(fine_altitudes * fine_suns * slots_of(degree) * groups),

@@ -27,6 +27,7 @@ class MomentTables final : public Tables {
 
   Grid grid;
   bool particles;
+  std::vector<double> straight_on;  ///< PhaseSeries::straight_on
   int fine_altitudes, fine_suns;
   int irradiance;          ///< where it lies in `moments`, in groups
   vulkan::Buffer series;   ///< PhaseSeries::values
