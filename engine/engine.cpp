@@ -14,6 +14,7 @@
 #include "engine/optics/colour.h"
 #include "engine/planner/nearby.h"
 #include "engine/planner/planner.h"
+#include "engine/planner/profile.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
 
@@ -121,7 +122,12 @@ struct Engine::Parts {
         pacer(options.longest_dispatch_ms),
         tables(options.table_bytes),
         methods(make_methods(device)),
-        compositor(device) {}
+        compositor(device),
+        profiles(options.profiles) {
+    const vulkan::DeviceInfo& info = device.info();
+    identity = info.name + ", " + info.driver + ", " + info.api_version + ", " + version();
+    if (auto kept = load_profile(profiles, identity)) profile = *kept;
+  }
 
   vulkan::Device device;
   vulkan::Commands commands;
@@ -129,6 +135,9 @@ struct Engine::Parts {
   TableCache tables;
   std::vector<std::unique_ptr<Method>> methods;
   Compositor compositor;
+  std::filesystem::path profiles;
+  std::string identity;  ///< of the device and the version
+  DeviceProfile profile;
   DeviceDescription description;
   std::unordered_map<std::string, Plan> plans;  ///< by the scene that stands for those alike
 
@@ -233,7 +242,7 @@ struct Engine::Parts {
       Traced traced = trace_directions(problem, directions, name, options, quiet);
       return in_error_channels(traced.radiance, scene, make_output(scene, wavelengths));
     };
-    return make_plan({scene, rays, methods, probe});
+    return make_plan({scene, rays, methods, profile, probe});
   }
 
   /// Of frames that are nearly alike one is planned for all, unless this very one is to be
@@ -277,7 +286,7 @@ Plan Engine::plan(const Scene& scene, const Watch& watch) {
 
 double Engine::expected_ms(const Scene& scene, const Plan& plan) {
   double rays = static_cast<double>(scene.image.width) * scene.image.height;
-  return cyanometer::expected_ms(parts_->method(plan.method), plan.options,
+  return cyanometer::expected_ms(parts_->profile, parts_->method(plan.method), plan.options,
                                  make_problem(scene, some_wavelengths_of(scene)), rays,
                                  plan.wavelengths_nm.size());
 }
@@ -482,6 +491,39 @@ void Engine::warm() {
     small["camera"]["projection"] = projection;
     render(read_scene(small));
   }
+  if (!parts_->profiles.empty() && parts_->profile.evaluations_per_ms.empty())
+    measure_profile();
+}
+
+std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
+  Scene scene = read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                            {"image", {{"width", 320}, {"height", 180}, {"format", "npy"}}}});
+  DeviceProfile profile;
+  for (const MethodDescription& method : methods()) {
+    if (method.ladder.empty()) continue;
+    Plan plan;
+    plan.method = method.name;
+    plan.options = method.ladder.front();
+    plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
+    render(scene, plan, watch);  // compiles
+    constexpr std::size_t repeats = 3;
+    constexpr double long_ms = 500;
+    std::vector<double> times;
+    do {
+      forget_tables();
+      double tables_before = tables().making_ms;
+      double frame_ms = render(scene, plan, watch).render_ms;
+      times.push_back(frame_ms + tables().making_ms - tables_before);
+    } while (times.size() < repeats && times.front() < long_ms);
+    std::ranges::sort(times);
+    double evaluations = expected_ms(scene, plan) * parts_->profile.pace(method.name);
+    profile.evaluations_per_ms[method.name] = evaluations / times[times.size() / 2];
+  }
+  parts_->profile = profile;
+  parts_->plans.clear();
+  // Where nothing can be written it holds until the end of the process.
+  save_profile(parts_->profiles, parts_->identity, profile);
+  return profile.evaluations_per_ms;
 }
 
 std::vector<DeviceDescription> list_devices(const EngineOptions& options) {

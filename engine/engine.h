@@ -4,7 +4,9 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -129,6 +131,9 @@ struct EngineOptions {
   std::string device;  ///< part of a device's name; empty: the best there is
   double longest_dispatch_ms = 50;
   std::size_t table_bytes = std::size_t{256} << 20;  ///< of tables kept between requests
+  /// Where the paces of devices are kept (planner/profile.h); empty: nominal ones are reckoned
+  /// with.
+  std::filesystem::path profiles = {};
 };
 
 class Engine {
@@ -156,8 +161,12 @@ class Engine {
   TableUse tables() const;
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();
-  /// Dispatches every pipeline once, so that the first request finds them compiled.
+  /// Dispatches every pipeline once, so that the first request finds them compiled; and at the
+  /// first start on a device measures its profile, where profiles are kept.
   void warm();
+  /// Measures how fast the device is, some seconds, keeps it, and plans by it from now on.
+  /// @returns evaluations a millisecond by method
+  std::map<std::string, double> measure_profile(const Watch& watch = {});
 
  private:
   struct Parts;

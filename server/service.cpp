@@ -1,5 +1,7 @@
 #include "server/service.h"
 
+#include "engine/cache_folder.h"
+
 #include <spdlog/spdlog.h>
 
 #include "server/log.h"
@@ -8,7 +10,9 @@ namespace cyanometer {
 
 Service::Service(const Config& config_)
     : config(config_),
-      queue({.engine = {.device = config_.device, .table_bytes = config_.cache_bytes()},
+      queue({.engine = {.device = config_.device,
+                        .table_bytes = config_.cache_bytes(),
+                        .profiles = cache_folder("profiles")},
              .capacity = static_cast<std::size_t>(config_.queue),
              .frame_bytes = config_.frame_bytes(),
              .log = [](const std::string& event) { log_event(spdlog::level::err, event); }}) {}

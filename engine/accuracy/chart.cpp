@@ -125,6 +125,14 @@ ChartPoint point_from(const json& document) {
   return point;
 }
 
+std::map<std::string, double> defaults_of(const MethodDescription& method) {
+  std::map<std::string, double> defaults;
+  for (const MethodOption& option : method.options) {
+    defaults[option.name] = option.default_value;
+  }
+  return defaults;
+}
+
 }  // namespace
 
 Scene charted(const Scene& scene, int pixels) {
@@ -163,7 +171,9 @@ void measure_points(Engine& engine, const ChartSettings& settings, const Watch& 
         std::ranges::find(settings.methods, method.name) == settings.methods.end()) {
       continue;
     }
-    for (const auto& options : chart_settings(method)) {
+    auto all =
+        settings.defaults_only ? std::vector{defaults_of(method)} : chart_settings(method);
+    for (const auto& options : all) {
       const ChartPoint* known = find(chart, method.name, options);
       if (!known) {
         if (!reference) {

@@ -48,13 +48,14 @@ struct ChartSettings {
   double longest_ms =
       1e4;  ///< a method's settings beyond one whose frame takes longer are left out
   std::vector<std::string> methods;  ///< none: all
+  bool defaults_only = false;        ///< each method once, as it is where nothing is asked
 };
 
 /// The scene as it is charted: at three wavelengths where it leaves them open, since otherwise
 /// methods would be compared by how many they are given; and about so many pixels large.
 Scene charted(const Scene& scene, int pixels);
 
-/// The settings at which a method is charted, cheapest first.
+/// The settings at which a method is charted, roughly cheapest first.
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method);
 
 /// Adds the points that `scene` lacks, and calls `done` after each. @param scene has its

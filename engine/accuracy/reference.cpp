@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -108,16 +107,6 @@ void add_walks(Engine& engine, const Scene& scene, std::int64_t walks, const Wat
 }
 
 }  // namespace
-
-std::filesystem::path reference_folder() {
-  auto variable = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-  };
-  std::filesystem::path cache = variable("XDG_CACHE_HOME");
-  if (cache.is_relative()) cache = variable("HOME") / ".cache";
-  return cache / "cyanometer" / "references";
-}
 
 Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal& goal,
                          const std::filesystem::path& folder, const Watch& watch) {

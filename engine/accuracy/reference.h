@@ -26,9 +26,6 @@ struct ReferenceGoal {
   std::int64_t most_walks = 16384;  ///< along a ray in each half, however noisy that leaves it
 };
 
-/// Where references are kept where nothing else is asked: under XDG_CACHE_HOME or ~/.cache.
-std::filesystem::path reference_folder();
-
 /// The reference on `goal.rays` stratified rays of the scene. Walks are added to what `folder`
 /// keeps of the same scene and version, and kept again after every pass, so that work that
 /// was cancelled goes on. A reference of one order or none has no noise and one pass.

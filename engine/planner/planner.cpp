@@ -18,11 +18,6 @@ using Samples = std::vector<std::vector<double>>;
 
 constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 
-/// Evaluations of the optical depth a millisecond on two cores of a software device; the plan
-/// may not depend on what is measured while it runs, or equal requests would have unequal
-/// answers.
-constexpr double nominal_evaluations_per_ms = 8e5;
-
 /// What is measured on some 256 rays holds for the frame in 95 % of frames with this factor.
 constexpr double frame_over_sample = 1.5;
 
@@ -168,8 +163,10 @@ class Planner {
   }
 
   Choice choice(const Method& method, const MethodOptions& options) const {
-    return {&method, options,
-            expected_ms(method, options, problem_, in_.rays, wavelengths_.nm.size()), 1};
+    return {
+        &method, options,
+        expected_ms(in_.profile, method, options, problem_, in_.rays, wavelengths_.nm.size()),
+        1};
   }
 
   /// Cheapest first.
@@ -266,12 +263,13 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
 
 }  // namespace
 
-double expected_ms(const Method& method, const MethodOptions& options, const Problem& problem,
-                   double rays, std::size_t wavelengths) {
+double expected_ms(const DeviceProfile& profile, const Method& method,
+                   const MethodOptions& options, const Problem& problem, double rays,
+                   std::size_t wavelengths) {
   // Columns are the same at every wavelength; the rest is done for four of them at a time.
   double groups = std::ceil(static_cast<double>(wavelengths) / 4);
   double evaluations = method.evaluations(problem, options, rays) * (1 + groups) / 2;
-  return evaluations / nominal_evaluations_per_ms;
+  return evaluations / profile.pace(method.description().name);
 }
 
 Plan make_plan(const PlanInputs& inputs) {

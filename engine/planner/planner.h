@@ -8,6 +8,7 @@
 
 #include "engine/engine.h"
 #include "engine/methods/method.h"
+#include "engine/planner/profile.h"
 
 namespace cyanometer {
 
@@ -21,6 +22,7 @@ struct PlanInputs {
   const Scene& scene;
   double rays = 0;  ///< of the whole request
   const std::vector<std::unique_ptr<Method>>& methods;
+  const DeviceProfile& profile;
   TraceProbe probe;  ///< the same few rays each time
 };
 
@@ -32,7 +34,8 @@ Plan make_plan(const PlanInputs& inputs);
 
 /// Time on the device that a plan reckons with, ms.
 /// @param problem  the scene at a few wavelengths
-double expected_ms(const Method& method, const MethodOptions& options, const Problem& problem,
-                   double rays, std::size_t wavelengths);
+double expected_ms(const DeviceProfile& profile, const Method& method,
+                   const MethodOptions& options, const Problem& problem, double rays,
+                   std::size_t wavelengths);
 
 }  // namespace cyanometer

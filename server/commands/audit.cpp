@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "engine/cache_folder.h"
 #include "server/commands/command.h"
 
 namespace cyanometer {
@@ -19,7 +20,7 @@ struct Arguments {
   std::uint64_t first = 0;
   int scenes = 200;
   ReferenceGoal goal{256, 0.001, 4096};
-  std::filesystem::path references = reference_folder();
+  std::filesystem::path references = cache_folder("references");
 };
 
 /// What an earlier run left, one scene a line.
@@ -38,7 +39,7 @@ void audit(const Arguments& arguments) {
   std::vector<json> scenes = read_lines(arguments.file);
   std::ofstream out(arguments.file, std::ios::app);
   if (!out) throw CommandError(exit_failed, "cannot write " + arguments.file);
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   for (std::uint64_t seed = arguments.first; seed < arguments.first + arguments.scenes;
        ++seed) {
     auto known = [&](const json& scene) { return scene.at("seed") == seed; };

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/accuracy/chart_svg.h"
+#include "engine/cache_folder.h"
 #include "engine/scene/document.h"
 #include "server/commands/command.h"
 
@@ -70,7 +71,7 @@ void chart(const Arguments& arguments) {
   const Watch watch = command_watch();
   const std::filesystem::path folder = arguments.folder;
   std::filesystem::create_directories(folder);
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   Chart chart{engine.device().name, version(), scenes_of(arguments)};
   resume(folder / "chart.json", chart);
   for (ChartScene& scene : chart.scenes) {
@@ -101,7 +102,7 @@ void add_chart(CLI::App& app) {
       "Speed against accuracy of every method, as chart.svg, chart.csv and chart.json");
   const auto arguments = std::make_shared<Arguments>();
   ChartSettings& settings = arguments->settings;
-  settings.references = reference_folder();
+  settings.references = cache_folder("references");
   command->add_option(
       "scene", arguments->files,
       "Scene documents, - is standard input; without any, presets that span what there is");

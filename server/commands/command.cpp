@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "engine/cache_folder.h"
 #include "engine/scene/document.h"
 
 namespace cyanometer {
@@ -37,8 +38,9 @@ int run_command(int count, char** arguments) {
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 1 failed, 2 command line or scene refused, 130 cancelled.");
-  for (const auto add : {add_serve, add_render, add_radiance, add_plan, add_devices, add_health,
-                         add_contact_sheet, add_schema, add_bench, add_chart, add_audit}) {
+  for (const auto add :
+       {add_serve, add_render, add_radiance, add_plan, add_devices, add_health,
+        add_contact_sheet, add_schema, add_bench, add_chart, add_audit, add_profile}) {
     add(app);
   }
   try {
@@ -80,6 +82,10 @@ void write_file(const std::string& path, const std::string& bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.flush();
   if (!out) throw CommandError(exit_failed, "cannot write " + path);
+}
+
+Engine command_engine(const std::string& device) {
+  return Engine({.device = device, .profiles = cache_folder("profiles")});
 }
 
 Watch command_watch() {

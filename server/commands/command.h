@@ -34,6 +34,9 @@ nlohmann::json read_document(const std::string& path);
 /// Writes all bytes; "-" is standard output. @throws CommandError
 void write_file(const std::string& path, const std::string& bytes);
 
+/// An engine on the device whose name has this part, with the profiles that the daemon keeps.
+Engine command_engine(const std::string& device);
+
 /// A watch that SIGINT cancels and that shows a bar on a terminal.
 Watch command_watch();
 /// Removes the bar.
@@ -50,5 +53,6 @@ void add_schema(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_chart(CLI::App& app);
 void add_audit(CLI::App& app);
+void add_profile(CLI::App& app);
 
 }  // namespace cyanometer

@@ -72,7 +72,7 @@ void contact_sheet(const Arguments& arguments) {
   const int pitch = cell_height + label + gap;
   Sheet sheet(arguments.width, rows * pitch + gap);
   const Watch watch = command_watch();
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   for (int i = 0; i < count; ++i) {
     const Preset& preset = presets()[static_cast<std::size_t>(i)];
     const int x = gap + i % arguments.columns * (cell + gap);

@@ -19,7 +19,7 @@ void print(const nlohmann::json& document) { write_file("-", document.dump(2) + 
 void radiance(const Arguments& arguments) {
   const auto asked = read_radiance_request(read_document(arguments.document));
   const Watch watch = command_watch();
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   const auto radiances =
       engine.radiance(asked.scene, asked.directions, asked.irradiance, watch);
   end_progress();
@@ -28,7 +28,7 @@ void radiance(const Arguments& arguments) {
 
 void plan(const Arguments& arguments) {
   const Scene scene = read_scene(read_document(arguments.document));
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   print(plan_document(scene, engine.plan(scene, command_watch())));
 }
 

@@ -49,7 +49,7 @@ struct Arguments {
 void render(const Arguments& arguments) {
   const Scene scene = scene_for_file(read_document(arguments.scene), arguments.output);
   const Watch watch = command_watch();
-  Engine engine({.device = arguments.device});
+  Engine engine = command_engine(arguments.device);
   const Frame frame = engine.render(scene, watch);
   end_progress();
   write_file(arguments.output, encode(frame, scene));

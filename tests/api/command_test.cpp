@@ -85,7 +85,7 @@ class Program {
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
   for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
-                           "contact-sheet", "schema", "bench", "chart", "audit"}) {
+                           "contact-sheet", "schema", "bench", "chart", "audit", "profile"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -138,7 +138,7 @@ TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {
                                            "--pixels",     "64",
                                            "--references", folder / "references",
                                            "-o",           folder / "chart",
-                                           "audit"};
+                                           "audit",        "profile"};
   const std::string scene = R"({"method":{"scattering_orders":1}})";
   Program run(arguments, scene);
   EXPECT_EQ(run.wait(), 0) << run.err();
