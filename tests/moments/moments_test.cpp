@@ -258,6 +258,36 @@ TEST(Moments, ComeCloserToTheSolutionWithTheirDegreeInHaze) {
   EXPECT_LT(error[2], 0.85 * error[1]);
 }
 
+TEST(Moments, AreWithinTwoPercentOfRandomWalksInHazeWithAPeak) {
+  constexpr double noise = 0.005;  // 95 % of the walks' own errors are less
+  for (double g : {0.76, 0.8}) {
+    for (double altitude : {0.0, 1.0}) {
+      Scene scene = hazy_scene(altitude, 20);
+      std::get<Particles>(scene.atmosphere.constituents["aerosol"].matter).phase =
+          HenyeyGreenstein{g};
+      Scene walk = scene;
+      walk.method = chosen("path", {{"samples_per_pixel", 1 << 14}});
+      auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                           device().radiance(walk, spread_directions(), false).radiance);
+      print("haze against walks", d);
+      EXPECT_LT(share(d, 0.95), 0.02 + noise);
+    }
+  }
+}
+
+TEST(Moments, OfDustAreNowhereTensOfPercentOff) {
+  Scene scene =
+      read_scene({{"preset", "earth_dust"},
+                  {"method", {{"name", "moments"}}},
+                  {"spectrum", {{"wavelengths_nm", {680, 550, 440}}, {"colour", "channels"}}}});
+  Scene walk = scene;
+  walk.method = chosen("path", {{"samples_per_pixel", 4096}});
+  auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                       device().radiance(walk, spread_directions(), false).radiance);
+  print("dust against walks", d);
+  EXPECT_LT(d.back(), 0.15);
+}
+
 /// Values that are apart by more than three standard errors and a hundredth.
 int apart_from_walks(const Scene& scene, const std::vector<Direction>& directions) {
   Scene walk = scene;

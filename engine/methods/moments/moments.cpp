@@ -44,18 +44,26 @@ int option(const MethodOptions& options, const char* name) {
   return static_cast<int>(options.at(name));
 }
 
-/// Tables for the orders before the last, which the pixel's ray itself scatters.
+/// Tables for the orders before the last, which the pixel's ray itself scatters. What is 0
+/// follows from the scene: finer structure takes finer tables.
 MomentSettings settings_of(const Problem& problem, const MethodOptions& options) {
-  MomentSettings settings{option(options, "degree"),   option(options, "altitudes"),
-                          option(options, "suns"),     option(options, "directions"),
-                          option(options, "azimuths"), option(options, "steps"),
-                          option(options, "orders"),   true};
+  auto chosen = [&](const char* name, int otherwise) {
+    int value = option(options, name);
+    return value > 0 ? value : otherwise;
+  };
+  int degree = chosen("degree", 0);
+  if (degree == 0) degree = degree_for(problem);
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
-  double depth = std::min(1.5 * largest_depth(problem), 12.0);
-  if (settings.altitudes == 0) settings.altitudes = 8 + static_cast<int>(depth);
+  int thick = static_cast<int>(std::min(1.5 * largest_depth(problem), 12.0));
+  MomentSettings settings{.degree = degree,
+                          .altitudes = chosen("altitudes", 4 + degree + thick),
+                          .suns = chosen("suns", 8 + 2 * degree),
+                          .directions = chosen("directions", 4 + degree),
+                          .azimuths = chosen("azimuths", 2 + degree),
+                          .steps = chosen("steps", 2 + degree + thick),
+                          .orders = chosen("orders", orders_until_geometric(problem)),
+                          .tail = true};
   settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
-  if (settings.steps == 0) settings.steps = 6 + static_cast<int>(depth);
-  if (settings.orders == 0) settings.orders = orders_until_geometric(problem);
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
   if (wanted > 0 && wanted - 1 <= most_orders) {
@@ -82,13 +90,14 @@ class Moments final : public Method {
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
-    constexpr double usual_orders = 4, multiplications_in_one = 8;
+    constexpr double multiplications_in_one = 8;
+    MomentSettings settings = settings_of(problem, options);
     double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
-    double gathered = options.at("altitudes") * 1.5 * options.at("directions") *
-                      options.at("suns") * options.at("azimuths");
+    double gathered =
+        settings.altitudes * 1.5 * settings.directions * settings.suns * settings.azimuths;
     double first_order = gathered * 2 * 6 * 12 * media;
-    double others = gathered * usual_orders * options.at("steps") * 4 *
-                    (options.at("degree") + 2) / multiplications_in_one;
+    double others = gathered * settings.orders * settings.steps * 4 * (settings.degree + 2) /
+                    multiplications_in_one;
     double sky = 2 * options.at("sky_elevations") * options.at("sky_azimuths") *
                  options.at("sky_steps") * 10 * media;
     double pixels = rays * problem.sun_disc_samples * 4 * options.at("view_nodes") * 12 * media;
@@ -277,22 +286,28 @@ const MethodDescription& moments_description() {
            "0.2 and more) blur the light next to a low sun and to the horizon.",
            "What is scattered more than once comes from the centre of the sun's disc."},
       .options =
-          {whole("degree", "Degree", "Highest degree of the spherical-harmonic moments.", 2, 8,
-                 4),
-           whole(
-               "altitudes", "Altitudes",
-               "Nodes of the tables over altitude; 0 takes 8, and more where the air is thick.",
-               0, 32, 0),
-           whole("suns", "Suns", "Nodes of the tables over the sun's elevation.", 8, 64, 16),
+          {whole("degree", "Degree",
+                 "Highest degree of the spherical-harmonic moments; 0 takes 4 in clear air and "
+                 "up to 8 in haze.",
+                 0, 8, 0),
+           whole("altitudes", "Altitudes",
+                 "Nodes of the tables over altitude; 0 takes what suits the degree, and more "
+                 "where the air is thick.",
+                 0, 32, 0),
+           whole("suns", "Suns",
+                 "Nodes of the tables over the sun's elevation; 0 takes what suits the degree.",
+                 0, 64, 0),
            whole("directions", "Directions",
-                 "Zenith angles above the horizon of the rays that gather light; below it are "
-                 "half as many.",
-                 4, 24, 8),
-           whole("azimuths", "Azimuths", "Azimuths of those rays, in half a turn.", 4, 24, 6),
-           whole(
-               "steps", "Steps",
-               "Gauss nodes on each of those rays; 0 takes 6, and more where the air is thick.",
-               0, 32, 0),
+                 "Zenith angles above the horizon of the rays that gather light, 0 for what "
+                 "suits the degree; below it are half as many.",
+                 0, 24, 0),
+           whole("azimuths", "Azimuths",
+                 "Azimuths of those rays, in half a turn; 0 takes what suits the degree.", 0,
+                 24, 0),
+           whole("steps", "Steps",
+                 "Gauss nodes on each of those rays; 0 takes what suits the degree, and more "
+                 "where the air is thick.",
+                 0, 32, 0),
            whole("orders", "Orders",
                  "Orders that are traced before a geometric series takes over; 0 takes as many "
                  "as the air's depth and the ground's albedo ask for.",
@@ -307,8 +322,8 @@ const MethodDescription& moments_description() {
                  "Elevations of the camera's sky, and as many of its ground.", 8, 256, 48),
            whole("sky_azimuths", "Sky azimuths",
                  "Azimuths of the camera's sky, in half a turn.", 4, 128, 24)},
-      .ladder = {sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24),
-                 sizes(6, 16, 24, 10, 8, 12, 8, 20, 64, 32)},
+      .ladder = {sizes(4, 0, 0, 0, 0, 0, 6, 16, 48, 24), sizes(0, 0, 0, 0, 0, 0, 6, 16, 48, 24),
+                 sizes(6, 0, 24, 0, 0, 12, 8, 20, 64, 32)},
   };
   return description;
 }
