@@ -117,8 +117,10 @@ int orders_until_geometric(const Problem& problem) {
     double air = 1.5 * depth / (1 + 1.5 * depth);
     largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
   }
-  // Three at least: light goes from the sun to the ground, to the air, and back to the ground.
-  return 3 + static_cast<int>(std::min(2.5 * largest / std::max(1 - largest, 0.04), 60.0));
+  // Three at least: light goes from the sun to the ground, to the air, and back to the ground;
+  // where that is bright, once or twice more.
+  int least = 3 + static_cast<int>(2.5 * std::ranges::max(problem.ground_albedo));
+  return least + static_cast<int>(std::min(2.5 * largest / std::max(1 - largest, 0.04), 60.0));
 }
 
 template physics::Physics<float>::MomentGrid moment_grid<float>(const Problem&, int, int);
