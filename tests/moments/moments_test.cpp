@@ -116,7 +116,7 @@ TEST(Moments, AreWithinAFewPermilleOfManyMomentsInDoubleByDayAndTwoPercentDownTo
 
 /// The 30 published cases of conservative Rayleigh air between planes, here on a vast planet.
 TEST(Moments, OnAFlatPlanetAreTheDiscreteOrdinates) {
-  Samples found, expected;
+  Samples found, expected, flux, expected_flux;
   nlohmann::json published = oracle::published("discrete_ordinates.json");
   for (const auto& row : published["cases"]) {
     for (bool top : {false, true}) {
@@ -138,12 +138,17 @@ TEST(Moments, OnAFlatPlanetAreTheDiscreteOrdinates) {
         directions.push_back({top ? zenith - 90 : 90 - zenith, d[1].get<double>()});
         expected.push_back({d[top ? 3 : 2].get<double>()});
       }
-      Samples radiance = device().radiance(scene, directions, false).radiance;
-      found.insert(found.end(), radiance.begin(), radiance.end());
+      Radiances all = device().radiance(scene, directions, true);
+      found.insert(found.end(), all.radiance.begin(), all.radiance.end());
+      flux.push_back(top ? all.irradiance->diffuse_up : all.irradiance->diffuse_down);
+      expected_flux.push_back({row[top ? "diffuse_up_top" : "diffuse_down_ground"]});
     }
   }
   auto d = differences(found, expected);
   print("discrete ordinates", d);
+  auto of_fluxes = differences(flux, expected_flux);
+  print("their fluxes", of_fluxes);
+  EXPECT_LT(of_fluxes.back(), 1.2e-2);
   EXPECT_LT(share(d, 0.5), 2e-3);
   EXPECT_LT(share(d, 0.95), 1.2e-2);
 }
@@ -256,6 +261,34 @@ TEST(Moments, ComeCloserToTheSolutionWithTheirDegreeInHaze) {
   }
   EXPECT_LT(error[1], 0.85 * error[0]);
   EXPECT_LT(error[2], 0.85 * error[1]);
+}
+
+TEST(Moments, AreWithinTwoPercentOfRandomWalksInHazeWithAPeak) {
+  constexpr double noise = 0.005;  // 95 % of the walks' own errors are less
+  for (double g : {0.76, 0.8}) {
+    Scene scene = hazy_scene(0, 20);
+    std::get<Particles>(scene.atmosphere.constituents["aerosol"].matter).phase =
+        HenyeyGreenstein{g};
+    Scene walk = scene;
+    walk.method = chosen("path", {{"samples_per_pixel", 1 << 14}});
+    auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                         device().radiance(walk, spread_directions(), false).radiance);
+    print("haze against walks", d);
+    EXPECT_LT(share(d, 0.95), 0.02 + noise);
+  }
+}
+
+TEST(Moments, OfDustAreNowhereTensOfPercentOff) {
+  Scene scene =
+      read_scene({{"preset", "earth_dust"},
+                  {"method", {{"name", "moments"}}},
+                  {"spectrum", {{"wavelengths_nm", {680, 550, 440}}, {"colour", "channels"}}}});
+  Scene walk = scene;
+  walk.method = chosen("path", {{"samples_per_pixel", 4096}});
+  auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                       device().radiance(walk, spread_directions(), false).radiance);
+  print("dust against walks", d);
+  EXPECT_LT(d.back(), 0.15);
 }
 
 /// Values that are apart by more than three standard errors and a hundredth.

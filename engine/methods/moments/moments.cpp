@@ -52,18 +52,31 @@ int option(const MethodOptions& options, const char* name) {
   return static_cast<int>(options.at(name));
 }
 
-/// Tables for the orders before the last, which the pixel's ray itself scatters.
+/// Tables for the orders before the last, which the pixel's ray itself scatters. What is 0
+/// follows from the scene: finer structure takes finer tables.
 MomentSettings settings_of(const Problem& problem, const MethodOptions& options) {
-  MomentSettings settings{option(options, "degree"),   option(options, "altitudes"),
-                          option(options, "suns"),     option(options, "directions"),
-                          option(options, "azimuths"), option(options, "steps"),
-                          option(options, "orders"),   true};
+  auto chosen = [&](const char* name, int otherwise) {
+    int value = option(options, name);
+    return value > 0 ? value : otherwise;
+  };
+  bool finer_tables = option(options, "finer") != 0;
+  constexpr int highest_degree = 8;
+  int degree =
+      chosen("degree", std::min(degree_for(problem) + (finer_tables ? 2 : 0), highest_degree));
+  auto sized = [&](const char* name, int usual) {
+    return chosen(name, finer_tables ? usual * 3 / 2 : usual);
+  };
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
-  double depth = std::min(1.5 * largest_depth(problem), 12.0);
-  if (settings.altitudes == 0) settings.altitudes = 8 + static_cast<int>(depth);
+  int thick = static_cast<int>(std::min(1.5 * largest_depth(problem), 12.0));
+  MomentSettings settings{.degree = degree,
+                          .altitudes = sized("altitudes", 4 + degree + thick),
+                          .suns = sized("suns", 8 + 2 * degree),
+                          .directions = sized("directions", 4 + degree),
+                          .azimuths = sized("azimuths", 2 + degree),
+                          .steps = sized("steps", 2 + degree + thick),
+                          .orders = chosen("orders", orders_until_geometric(problem)),
+                          .tail = true};
   settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
-  if (settings.steps == 0) settings.steps = 6 + static_cast<int>(depth);
-  if (settings.orders == 0) settings.orders = orders_until_geometric(problem);
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
   if (wanted > 0 && wanted - 1 <= most_orders) {
@@ -93,17 +106,17 @@ class Moments final : public Method {
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
-    constexpr double usual_orders = 4, multiplications_in_one = 8;
+    constexpr double multiplications_in_one = 8;
+    MomentSettings settings = settings_of(problem, options);
     double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
-    double gathered = options.at("altitudes") * 1.5 * options.at("directions") *
-                      options.at("suns") * options.at("azimuths");
+    double gathered =
+        settings.altitudes * 1.5 * settings.directions * settings.suns * settings.azimuths;
     double first_order = gathered * 2 * 6 * 12 * media;
-    double pixels_read = 0;
-    double others = gathered * usual_orders * options.at("steps") * 4 *
-                    (options.at("degree") + 2) / multiplications_in_one;
+    double others = gathered * settings.orders * settings.steps * 4 * (settings.degree + 2) /
+                    multiplications_in_one;
     double sky = 2 * options.at("sky_elevations") * options.at("sky_azimuths") *
                  options.at("sky_steps") * 10 * media;
-    double marched = rays * problem.sun_disc_samples;
+    double marched = rays * problem.sun_disc_samples, pixels_read = 0;
     if (may_read_first_order(problem, options)) {
       constexpr double a_lookup = 30;
       pixels_read = rays * a_lookup * media;
@@ -308,25 +321,22 @@ MethodOption whole(std::string name, std::string title, std::string text, double
           .logarithmic = minimum > 0};
 }
 
-/// All options but the number of orders, which follows from the air.
-MethodOptions sizes(int degree, int altitudes, int suns, int directions, int azimuths,
-                    int steps, int view_nodes, int sky_steps, int sky_elevations,
-                    int sky_azimuths, bool march) {
-  return {{"degree", degree},
-          {"march_pixels", march},
-          {"first_elevations", 108},
-          {"first_azimuths", 64},
-          {"first_samples", 16},
-          {"altitudes", altitudes},
-          {"suns", suns},
-          {"directions", directions},
-          {"azimuths", azimuths},
-          {"steps", steps},
-          {"orders", 0},
-          {"view_nodes", view_nodes},
-          {"sky_steps", sky_steps},
-          {"sky_elevations", sky_elevations},
-          {"sky_azimuths", sky_azimuths}};
+/// All options, those of the tables as they follow from the scene.
+MethodOptions sizes(int degree, bool finer_tables, bool march) {
+  MethodOptions options{{"degree", degree},
+                        {"finer", finer_tables},
+                        {"march_pixels", march},
+                        {"view_nodes", finer_tables ? 8 : 6},
+                        {"sky_steps", finer_tables ? 20 : 16},
+                        {"sky_elevations", finer_tables ? 64 : 48},
+                        {"sky_azimuths", finer_tables ? 32 : 24},
+                        {"first_elevations", 108},
+                        {"first_azimuths", 64},
+                        {"first_samples", 16}};
+  for (const char* name : {"altitudes", "suns", "directions", "azimuths", "steps", "orders"}) {
+    options[name] = 0;
+  }
+  return options;
 }
 
 }  // namespace
@@ -346,26 +356,37 @@ const MethodDescription& moments_description() {
            "and "
            "by 1 % in twilight."},
       .options =
-          {whole("degree", "Degree", "Highest degree of the spherical-harmonic moments.", 2, 8,
-                 4),
-           whole(
-               "altitudes", "Altitudes",
-               "Nodes of the tables over altitude; 0 takes 8, and more where the air is thick.",
-               0, 32, 0),
-           whole("suns", "Suns", "Nodes of the tables over the sun's elevation.", 8, 64, 16),
+          {whole("degree", "Degree",
+                 "Highest degree of the spherical-harmonic moments; 0 takes 4 in clear air and "
+                 "up to 8 in haze.",
+                 0, 8, 0),
+           whole("altitudes", "Altitudes",
+                 "Nodes of the tables over altitude; 0 takes what suits the degree, and more "
+                 "where the air is thick.",
+                 0, 32, 0),
+           whole("suns", "Suns",
+                 "Nodes of the tables over the sun's elevation; 0 takes what suits the degree.",
+                 0, 64, 0),
            whole("directions", "Directions",
-                 "Zenith angles above the horizon of the rays that gather light; below it are "
-                 "half as many.",
-                 4, 24, 8),
-           whole("azimuths", "Azimuths", "Azimuths of those rays, in half a turn.", 4, 24, 6),
-           whole(
-               "steps", "Steps",
-               "Gauss nodes on each of those rays; 0 takes 6, and more where the air is thick.",
-               0, 32, 0),
+                 "Zenith angles above the horizon of the rays that gather light, 0 for what "
+                 "suits the degree; below it are half as many.",
+                 0, 24, 0),
+           whole("azimuths", "Azimuths",
+                 "Azimuths of those rays, in half a turn; 0 takes what suits the degree.", 0,
+                 24, 0),
+           whole("steps", "Steps",
+                 "Gauss nodes on each of those rays; 0 takes what suits the degree, and more "
+                 "where the air is thick.",
+                 0, 32, 0),
            whole("orders", "Orders",
                  "Orders that are traced before a geometric series takes over; 0 takes as many "
                  "as the air's depth and the ground's albedo ask for.",
                  0, 64, 0),
+           whole(
+               "finer", "Finer",
+               "1: all that follows from the scene is half as fine again, the degree higher by "
+               "two.",
+               0, 1, 0),
            whole("view_nodes", "View nodes",
                  "Gauss nodes of order one on each smooth piece of a view ray.", 1,
                  Physics<float>::MOST_GAUSS_NODES, 6),
@@ -388,9 +409,8 @@ const MethodDescription& moments_description() {
            whole("first_azimuths", "Order one: azimuths", "Azimuths of that table.", 2, 512,
                  64),
            whole("first_samples", "Order one: samples", "Samples on its rays.", 4, 64, 16)},
-      .ladder = {sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24, false),
-                 sizes(4, 8, 16, 8, 6, 6, 6, 16, 48, 24, true),
-                 sizes(6, 16, 24, 10, 8, 12, 8, 20, 64, 32, true)},
+      .ladder = {sizes(4, false, false), sizes(0, false, false), sizes(0, false, true),
+                 sizes(0, true, true)},
   };
   return description;
 }
