@@ -55,6 +55,51 @@ std::vector<bool> counted_pixels(Engine& engine, const Scene& scene, const Watch
   return counted;
 }
 
+/// Walks along a ray in each half where four wavelengths or fewer are traced: some twenty
+/// seconds on two cores of a software device.
+constexpr std::int64_t most_walks_of_four = 16384;
+
+Scene at(const Scene& scene, const std::vector<double>& wavelengths_nm) {
+  Scene result = scene;
+  result.spectrum.wavelengths_nm = wavelengths_nm;
+  return result;
+}
+
+/// The converged solution of the sampled pixels as two halves, [half][pixel][channel]. Where
+/// the scene leaves its wavelengths open, `path` walks at few, which leaves it more walks, and
+/// what many would change is told without noise.
+std::array<Samples, 2> converged_channels(Engine& engine, const Scene& asked,
+                                          const JudgementGoal& goal, const Watch& watch) {
+  bool open = asked.spectrum.wavelengths_nm.empty();
+  Scene scene =
+      at(converged_scene(asked), open ? colour_wavelengths(8) : asked.spectrum.wavelengths_nm);
+  const std::vector<double>& few = scene.spectrum.wavelengths_nm;
+  ReferenceGoal walked = goal.reference;
+  auto groups = static_cast<std::int64_t>((few.size() + 3) / 4);
+  walked.most_walks = std::min(walked.most_walks, most_walks_of_four / groups);
+  Reference reference = make_reference(engine, scene, walked, "", part_of(watch, 0, 0.8));
+  RayColours colours(scene, few);
+  std::array halves{colours.error_channels(reference.halves[0]),
+                    colours.error_channels(reference.halves[1])};
+  if (!open) return halves;
+  auto finest = [&](const std::vector<double>& wavelengths_nm) {
+    Scene tinted = at(scene, wavelengths_nm);
+    return RayColours(tinted, wavelengths_nm)
+        .error_channels(engine
+                            .radiance(tinted, reference.directions, false,
+                                      finest_plan(tinted, wavelengths_nm),
+                                      part_of(watch, 0.8, 1))
+                            .radiance);
+  };
+  Samples with_few = finest(few), with_many = finest(converged_wavelengths(asked));
+  for (Samples& half : halves) {
+    for (std::size_t i = 0; i < half.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) half[i][c] += with_many[i][c] - with_few[i][c];
+    }
+  }
+  return halves;
+}
+
 /// The stratified pixels that count, and the image and the reference on them.
 struct SampledImage {
   std::vector<std::size_t> pixels;
@@ -63,22 +108,21 @@ struct SampledImage {
   std::vector<Triple> reference;  ///< linear, as displayed
 };
 
-SampledImage sample(const Scene& scene, const ExrImage& image, const Reference& reference,
-                    const RayColours& colours, const std::vector<int>& pixels,
+SampledImage sample(const Scene& scene, const ExrImage& image,
+                    const std::array<Samples, 2>& halves, const std::vector<int>& pixels,
                     const std::vector<bool>& counted) {
+  bool cie = scene.spectrum.colour == Colour::cie;
   SampledImage sampled;
-  std::array channels{colours.error_channels(reference.halves[0]),
-                      colours.error_channels(reference.halves[1])};
-  Samples mean = mean_of(reference.halves[0], reference.halves[1]);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     auto pixel = static_cast<std::size_t>(pixels[i]);
     if (!counted[pixel]) continue;
     sampled.pixels.push_back(pixel);
-    Triple value = pixel_of(image, pixel);
-    if (scene.spectrum.colour == Colour::cie) value = xyz_from_rec709() * value;
+    Triple value = pixel_of(image, pixel), mean;
+    if (cie) value = xyz_from_rec709() * value;
     sampled.image.emplace_back(value.begin(), value.end());
-    for (std::size_t half : {0, 1}) sampled.halves[half].push_back(channels[half][i]);
-    sampled.reference.push_back(colours.rgb(mean[i]));
+    for (std::size_t half : {0, 1}) sampled.halves[half].push_back(halves[half][i]);
+    for (std::size_t c = 0; c < 3; ++c) mean[c] = (halves[0][i][c] + halves[1][i][c]) / 2;
+    sampled.reference.push_back(cie ? rec709_from_xyz() * mean : mean);
   }
   return sampled;
 }
@@ -176,17 +220,15 @@ Comparison judge(Engine& engine, const Scene& asked, const ExrImage& image,
                  const JudgementGoal& goal, const Watch& watch) {
   std::vector<bool> counted = counted_pixels(engine, asked, part_of(watch, 0, 0.1));
   Scene scene = converged_scene(asked);
-  std::vector<int> pixels = sample_pixels(scene, goal.reference.rays);
-  Reference reference =
-      make_reference(engine, scene, goal.reference, "", part_of(watch, 0.1, 0.8));
-  RayColours colours(scene, scene.spectrum.wavelengths_nm);
-  SampledImage sampled = sample(scene, image, reference, colours, pixels, counted);
+  std::array halves = converged_channels(engine, asked, goal, part_of(watch, 0.1, 0.8));
+  SampledImage sampled =
+      sample(scene, image, halves, sample_pixels(scene, goal.reference.rays), counted);
   Comparison result;
   EstimatedError error = measure_error(sampled.image, sampled.halves[0], sampled.halves[1]);
   result.measure = error.measure;
   result.error_95 = {error.low, error.high};
-  Displayed displayed(scene.image, colours.output(),
-                      exposure_of(scene, sampled, colours.output()));
+  Output output = make_output(scene, scene.spectrum.wavelengths_nm);
+  Displayed displayed(scene.image, output, exposure_of(scene, sampled, output));
   result.ciede2000_p99 = colour_difference(sampled, image, displayed);
   std::vector<unsigned char> rgbx = display(image, displayed, counted, watch);
   std::vector<Contour> found =

@@ -15,9 +15,11 @@ namespace cyanometer {
 /// @throws ImageError as read_exr does, and where colours are not of Rec. 709
 ExrImage read_frame(std::string_view bytes, const Scene& scene);
 
-/// What a judgement takes: some seconds on a software device.
+/// How good the reference of a judgement must be. Where noise stays above it, walks end after
+/// some twenty seconds on two cores of a software device, and the interval says what is not
+/// known.
 struct JudgementGoal {
-  ReferenceGoal reference{.rays = 256, .noise = 0.004, .most_walks = 2048};
+  ReferenceGoal reference{.rays = 256, .noise = 0.004};
   int contours = 512;  ///< that are looked at, of all that the picture has
 };
 
