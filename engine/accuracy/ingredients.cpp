@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <numbers>
 
 #include "engine/accuracy/error.h"
 #include "engine/accuracy/finest.h"
@@ -48,13 +50,30 @@ Scene with_orders(const Scene& scene, int orders) {
   return result;
 }
 
-/// On a planet so large that the air is flat; what is near stays as near.
-Scene flat(const Scene& scene) {
-  constexpr double huge_km = 1e7;
-  Scene result = scene;
-  double grown = huge_km - scene.planet.radius_km;
-  result.planet.radius_km += grown;
-  if (result.sun.distance_km) *result.sun.distance_km += grown;
+/// A scene, and what its light must be multiplied by.
+struct Scaled {
+  Scene scene;
+  double factor = 1;
+};
+
+/// On a planet so large that the air is flat. A near sun stays as far from the foot point; its
+/// irradiance holds at the planet's centre, which is farther now.
+Scaled flat(const Scene& scene) {
+  constexpr double huge_km = 1e7, large_km = 1e5;  // positions of a near sun are in float
+  Scaled result{scene};
+  double radius = scene.planet.radius_km;
+  if (!scene.sun.distance_km) {
+    result.scene.planet.radius_km = std::max(huge_km, radius);
+    return result;
+  }
+  double larger = std::max(large_km, radius), from_centre = *scene.sun.distance_km;
+  double up = std::sin(scene.sun.elevation_deg * std::numbers::pi / 180);
+  double along = radius * up;  // from the foot point: d^2 + 2 d R sin e + R^2 = D^2
+  double away = std::sqrt(along * along + from_centre * from_centre - radius * radius) - along;
+  double farther = std::sqrt(larger * larger + away * away + 2 * larger * away * up);
+  result.scene.planet.radius_km = larger;
+  result.scene.sun.distance_km = farther;
+  result.factor = from_centre * from_centre / (farther * farther);
   return result;
 }
 
@@ -100,7 +119,7 @@ class Explainer {
     add_without("curvature", flat(whole_));
     Scene black = whole_;
     black.planet.ground_albedo = 0.0;
-    add_without("ground", black);
+    add_without("ground", {black});
     if (whole_.spectrum.colour == Colour::cie) {
       open_wavelengths() ? numbers_of_wavelengths() : given_wavelengths();
     }
@@ -151,16 +170,19 @@ class Explainer {
     watch_.progress(std::min(static_cast<double>(found_.size()) / steps_, 1.0));
   }
 
-  void add_without(const std::string& name, const Scene& without) {
-    add(name, light(without, light_.wavelengths_nm), light_,
-        plan_.expected_ms - planned_ms(without));
+  void add_without(const std::string& name, const Scaled& without) {
+    Light rest = light(without.scene, light_.wavelengths_nm);
+    for (std::vector<double>& ray : rest.radiance) {
+      for (double& value : ray) value *= without.factor;
+    }
+    add(name, rest, light_, plan_.expected_ms - planned_ms(without.scene));
   }
 
   void constituents() {
     for (const auto& [name, unused] : whole_.atmosphere.constituents) {
       Scene without = whole_;
       without.atmosphere.constituents.erase(name);
-      add_without(key_of_constituent(name), without);
+      add_without(key_of_constituent(name), {without});
     }
   }
 

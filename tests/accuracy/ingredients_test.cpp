@@ -82,6 +82,14 @@ TEST(Explain, CurvatureMattersAtLowSun) {
   EXPECT_GT(twilight().at("curvature").error, 3 * noon().at("curvature").error);
 }
 
+TEST(Explain, ASunAsNearIsAsBrightOverAFlatGround) {
+  auto found = explained({{"sun", {{"distance_km", 30000}, {"elevation_deg", 60}}},
+                          {"method", {{"scattering_orders", 1}}}});
+  auto parallel =
+      explained({{"sun", {{"elevation_deg", 60}}}, {"method", {{"scattering_orders", 1}}}});
+  EXPECT_LT(found.at("curvature").error, 2 * parallel.at("curvature").error + 0.02);
+}
+
 TEST(Explain, GivenWavelengthsOfAColourAreLeftOutByPlace) {
   auto found = explained(
       {{"method", {{"scattering_orders", 1}}},
