@@ -36,23 +36,34 @@ glm::dvec3 unit_vector(const Direction& d) {
           std::sin(elevation)};
 }
 
-/// Some of the frame's rays, one from each cell of an even grid, off its centre so that no row
-/// or column of the picture is looked at twice as often as another.
-std::vector<glm::dvec3> stratified_rays(Physics<double>& camera, int count) {
+bool meets_air_or_ground(Physics<double>& camera, int pixel) {
+  auto ray = camera.pixel_ray(pixel);
+  return ray.inside && camera.meets_planet(camera.path_from_camera(ray.direction));
+}
+
+/// Some of the frame's pixels, one from each cell of an even grid, off its centre so that no
+/// row or column of the picture is looked at twice as often as another.
+std::vector<int> stratified_pixels(Physics<double>& camera, int count) {
   int side = static_cast<int>(std::lround(std::sqrt(count)));
   int width = camera.scene.width, height = camera.scene.height;
   int columns = std::min(side, width), rows = std::min(side, height);
-  std::vector<glm::dvec3> directions;
+  std::vector<int> pixels;
   for (int cell = 0; cell < columns * rows; ++cell) {
     // Additive recurrence on the plastic number: evenly spread offsets without a random number.
     double u = std::fmod(0.5 + cell * 0.7548776662466927, 1.0);
     double v = std::fmod(0.5 + cell * 0.5698402909980532, 1.0);
     int x = static_cast<int>((cell % columns + u) / columns * width);
     int y = static_cast<int>((cell / columns + v) / rows * height);
-    auto ray = camera.pixel_ray(std::min(y, height - 1) * width + std::min(x, width - 1));
-    if (ray.inside && camera.meets_planet(camera.path_from_camera(ray.direction))) {
-      directions.push_back(ray.direction);
-    }
+    int pixel = std::min(y, height - 1) * width + std::min(x, width - 1);
+    if (meets_air_or_ground(camera, pixel)) pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
+std::vector<glm::dvec3> stratified_rays(Physics<double>& camera, int count) {
+  std::vector<glm::dvec3> directions;
+  for (int pixel : stratified_pixels(camera, count)) {
+    directions.push_back(camera.pixel_ray(pixel).direction);
   }
   return directions;
 }
@@ -474,14 +485,41 @@ void Engine::forget_tables() { parts_->tables.clear(); }
 
 TableUse Engine::tables() const { return {parts_->tables.bytes(), parts_->tables.making_ms()}; }
 
-std::vector<Direction> sample_directions(const Scene& scene, int count) {
-  Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
+namespace {
+
+Physics<double> camera_of(const Scene& scene) {
+  return pack<double>(make_problem(scene, some_wavelengths_of(scene)));
+}
+
+}  // namespace
+
+std::vector<int> sample_pixels(const Scene& scene, int count) {
+  Physics<double> camera = camera_of(scene);
+  return stratified_pixels(camera, count);
+}
+
+std::vector<Direction> pixel_directions(const Scene& scene, const std::vector<int>& pixels) {
+  Physics<double> camera = camera_of(scene);
   std::vector<Direction> directions;
-  for (const glm::dvec3& ray : stratified_rays(camera, count)) {
+  for (int pixel : pixels) {
+    glm::dvec3 ray = camera.pixel_ray(pixel).direction;
     directions.push_back({glm::degrees(std::atan2(ray.z, std::hypot(ray.x, ray.y))),
                           glm::degrees(std::atan2(ray.x, ray.y))});
   }
   return directions;
+}
+
+std::vector<Direction> sample_directions(const Scene& scene, int count) {
+  return pixel_directions(scene, sample_pixels(scene, count));
+}
+
+std::vector<bool> measured_pixels(const Scene& scene) {
+  Physics<double> camera = camera_of(scene);
+  std::vector<bool> measured(static_cast<std::size_t>(scene.image.width) * scene.image.height);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    measured[i] = meets_air_or_ground(camera, static_cast<int>(i));
+  }
+  return measured;
 }
 
 void Engine::warm() {

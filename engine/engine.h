@@ -173,9 +173,15 @@ class Engine {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Some `count` of the frame's rays, those of an even grid's cells that meet air or ground, as
-/// errors are measured on.
+/// Some `count` of the frame's pixels, those of an even grid's cells whose rays meet air or
+/// ground, as errors are measured on; counted row by row from the top.
+std::vector<int> sample_pixels(const Scene& scene, int count);
+/// The rays through the centres of pixels that lie inside the camera's picture.
+std::vector<Direction> pixel_directions(const Scene& scene, const std::vector<int>& pixels);
+/// The rays of `sample_pixels`.
 std::vector<Direction> sample_directions(const Scene& scene, int count);
+/// [pixel] whether its ray meets air or ground: errors are taken over these.
+std::vector<bool> measured_pixels(const Scene& scene);
 
 /// All Vulkan devices of this machine, and which one would be used and why.
 std::vector<DeviceDescription> list_devices(const EngineOptions& options = {});

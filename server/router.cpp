@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Named by the interface, not offered by this version.
-constexpr std::array later_paths{"/v1/stream", "/v1/composite", "/v1/compare", "/v1/explain"};
+constexpr std::array later_paths{"/v1/stream", "/v1/composite"};
 
 constexpr int client_left = 499;  ///< in logs and metrics; nobody is there to read it
 

@@ -9,10 +9,22 @@ namespace {
 
 using Pixels = std::vector<std::vector<double>>;
 
-double median_of_positive(const std::vector<std::vector<double>>& pixels, std::size_t channel) {
+std::size_t channels_of(const Pixels& pixels) {
+  return pixels.empty() ? 0 : pixels.front().size();
+}
+
+std::vector<double> flat(const Pixels& pixels) {
+  std::vector<double> values;
+  values.reserve(pixels.size() * channels_of(pixels));
+  for (const auto& pixel : pixels) values.insert(values.end(), pixel.begin(), pixel.end());
+  return values;
+}
+
+double median_of_positive(std::span<const double> values, std::size_t channel,
+                          std::size_t channels) {
   std::vector<double> positive;
-  for (const auto& pixel : pixels) {
-    if (pixel[channel] > 0) positive.push_back(pixel[channel]);
+  for (std::size_t i = channel; i < values.size(); i += channels) {
+    if (values[i] > 0) positive.push_back(values[i]);
   }
   if (positive.empty()) return 0;
   auto middle = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 2);
@@ -22,28 +34,18 @@ double median_of_positive(const std::vector<std::vector<double>>& pixels, std::s
 }
 
 /// (L - from) in the scale that L and its reference set.
-std::vector<double> differences_from(const Pixels& from, const Pixels& values,
-                                     const Pixels& reference) {
-  std::size_t channels = values.empty() ? 0 : values.front().size();
-  std::vector<double> differences(values.size() * channels, 0.0);
+std::vector<double> differences_from(std::span<const double> from,
+                                     std::span<const double> values,
+                                     std::span<const double> reference, std::size_t channels) {
+  std::vector<double> differences(values.size(), 0.0);
   for (std::size_t c = 0; c < channels; ++c) {
-    double floor = 0.01 * median_of_positive(reference, c);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      double l = values[i][c];
-      double scale = std::max(l, reference[i][c]) + floor;
-      differences[i * channels + c] = scale > 0 ? (l - from[i][c]) / scale : 0;
+    double floor = 0.01 * median_of_positive(reference, c, channels);
+    for (std::size_t i = c; i < values.size(); i += channels) {
+      double scale = std::max(values[i], reference[i]) + floor;
+      differences[i] = scale > 0 ? (values[i] - from[i]) / scale : 0;
     }
   }
   return differences;
-}
-
-/// The smallest value that at least the share `p` of all values does not exceed.
-double percentile(std::vector<double> values, double p) {
-  if (values.empty()) return 0;
-  double rank = std::ceil(p * static_cast<double>(values.size())) - 1;
-  auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 /// The error of values of which the squares are known but for noise: some of them may be
@@ -76,14 +78,27 @@ std::vector<double> bootstrap(const std::vector<double>& squares, std::size_t ch
 
 }  // namespace
 
-std::vector<double> relative_differences(const std::vector<std::vector<double>>& values,
-                                         const std::vector<std::vector<double>>& reference) {
-  return differences_from(reference, values, reference);
+double percentile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  double rank = std::ceil(p * static_cast<double>(values.size())) - 1;
+  auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
-ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
-                           const std::vector<std::vector<double>>& reference) {
-  std::vector<double> d = relative_differences(values, reference);
+std::vector<double> relative_differences(std::span<const double> values,
+                                         std::span<const double> reference,
+                                         std::size_t channels) {
+  return differences_from(reference, values, reference, channels);
+}
+
+std::vector<double> relative_differences(const Pixels& values, const Pixels& reference) {
+  return relative_differences(flat(values), flat(reference), channels_of(values));
+}
+
+ErrorMeasure measure_error(std::span<const double> values, std::span<const double> reference,
+                           std::size_t channels) {
+  std::vector<double> d = relative_differences(values, reference, channels);
   ErrorMeasure measure;
   if (d.empty()) return measure;
   double sum = 0, squares = 0;
@@ -100,10 +115,15 @@ ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
   return measure;
 }
 
+ErrorMeasure measure_error(const Pixels& values, const Pixels& reference) {
+  return measure_error(flat(values), flat(reference), channels_of(values));
+}
+
 EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const Pixels& half_b) {
-  Pixels mean = mean_of(half_a, half_b);
-  std::vector<double> a = differences_from(half_a, values, mean),
-                      b = differences_from(half_b, values, mean);
+  std::size_t channels = channels_of(values);
+  std::vector<double> l = flat(values), mean = flat(mean_of(half_a, half_b)),
+                      a = differences_from(flat(half_a), l, mean, channels),
+                      b = differences_from(flat(half_b), l, mean, channels);
   EstimatedError estimate;
   if (a.empty()) return estimate;
   std::vector<double> squares(a.size());
@@ -115,7 +135,7 @@ EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const P
   }
   measure.p99 = std::sqrt(std::max(percentile(squares, 0.99), 0.0));
   measure.error = error_of_squares(squares);
-  std::vector<double> errors = bootstrap(squares, values.front().size());
+  std::vector<double> errors = bootstrap(squares, channels);
   estimate.low = errors[errors.size() / 40];
   estimate.high = errors[errors.size() - 1 - errors.size() / 40];
   return estimate;

@@ -1,6 +1,7 @@
 // The contract's measure of how wrong a frame is.
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace cyanometer {
@@ -22,6 +23,17 @@ ErrorMeasure measure_error(const std::vector<std::vector<double>>& values,
 /// d of each pixel and channel, by the same rule; [pixel * channels + channel].
 std::vector<double> relative_differences(const std::vector<std::vector<double>>& values,
                                          const std::vector<std::vector<double>>& reference);
+
+/// The same two of frames, which are too large for a vector a pixel: [pixel * channels +
+/// channel].
+ErrorMeasure measure_error(std::span<const double> values, std::span<const double> reference,
+                           std::size_t channels);
+std::vector<double> relative_differences(std::span<const double> values,
+                                         std::span<const double> reference,
+                                         std::size_t channels);
+
+/// The smallest value that at least the share `p` of all values does not exceed; 0 of none.
+double percentile(std::vector<double> values, double p);
 
 /// An error measured against a reference that is itself noisy, with its 95 % interval.
 struct EstimatedError {

@@ -112,10 +112,10 @@ Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal
                          const std::filesystem::path& folder, const Watch& watch) {
   constexpr std::int64_t first_walks = 256;
   json identity = identity_of(scene, goal);
-  std::filesystem::path file = file_for(folder, identity);
+  std::filesystem::path file = folder.empty() ? "" : file_for(folder, identity);
   Reference reference;
   reference.directions = sample_directions(scene, goal.rays);
-  load(file, identity, scene.spectrum.wavelengths_nm.size(), reference);
+  if (!file.empty()) load(file, identity, scene.spectrum.wavelengths_nm.size(), reference);
   bool random = scene.method.scattering_orders.value_or(2) > 1;
   auto noisy = [&] {
     // The mean's error is half of the halves' difference.
@@ -124,7 +124,7 @@ Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal
   };
   while (reference.walks == 0 || noisy()) {
     add_walks(engine, scene, std::max(reference.walks, first_walks), watch, reference);
-    save(file, identity, reference);
+    if (!file.empty()) save(file, identity, reference);
   }
   return reference;
 }

@@ -29,6 +29,7 @@ struct ReferenceGoal {
 /// The reference on `goal.rays` stratified rays of the scene. Walks are added to what `folder`
 /// keeps of the same scene and version, and kept again after every pass, so that work that
 /// was cancelled goes on. A reference of one order or none has no noise and one pass.
+/// @param folder  empty: nothing is kept
 /// @param scene has its wavelengths given; its method and its display do not matter
 /// @throws OverLimit, Cancelled, DeviceLost
 Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal& goal,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/display/displayed.h"
 #include "spirv/compose.spv.h"
 #include "spirv/display.spv.h"
 #include "spirv/stars.spv.h"
@@ -152,11 +153,11 @@ void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile&
 void Compositor::display(Tracer& tracer, const Image& image, const Output& output,
                          double exposure_ev, const FrameStore& store) {
   constexpr int pixels_at_once = 1 << 20;
-  double scale = std::exp2(exposure_ev) / output.white_card;
+  Matrix matrix = display_matrix(output, exposure_ev);
   DisplayPush push{};
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t c = 0; c < 3; ++c) {
-      push.rows[row][c] = static_cast<float>(scale * output.white_balance[3 * row + c]);
+      push.rows[row][c] = static_cast<float>(matrix[3 * row + c]);
     }
   }
   vulkan::Specialization constants{static_cast<std::uint32_t>(image.tone_map),

@@ -38,9 +38,9 @@ int run_command(int count, char** arguments) {
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 1 failed, 2 command line or scene refused, 130 cancelled.");
-  for (const auto add :
-       {add_serve, add_render, add_radiance, add_plan, add_devices, add_health,
-        add_contact_sheet, add_schema, add_bench, add_chart, add_audit, add_profile}) {
+  for (const auto add : {add_serve, add_render, add_radiance, add_plan, add_compare,
+                         add_explain, add_devices, add_health, add_contact_sheet, add_schema,
+                         add_bench, add_chart, add_audit, add_profile}) {
     add(app);
   }
   try {
@@ -65,15 +65,17 @@ int run_command(int count, char** arguments) {
   }
 }
 
-nlohmann::json read_document(const std::string& path) {
+std::string read_file(const std::string& path) {
   std::ifstream file;
   if (path != "-") {
     file.open(path, std::ios::binary);
     if (!file) throw CommandError(exit_failed, "cannot read " + path);
   }
   std::istream& in = path == "-" ? std::cin : file;
-  return parse_json(std::string(std::istreambuf_iterator<char>(in), {}));
+  return std::string(std::istreambuf_iterator<char>(in), {});
 }
+
+nlohmann::json read_document(const std::string& path) { return parse_json(read_file(path)); }
 
 void write_file(const std::string& path, const std::string& bytes) {
   std::ofstream file;

@@ -28,6 +28,9 @@ struct CommandError : std::runtime_error {
 /// Parses the command line, runs the command, and says on standard error what went wrong.
 int run_command(int count, char** arguments);
 
+/// All bytes of a file; "-" is standard input. @throws CommandError
+std::string read_file(const std::string& path);
+
 /// The JSON document in a file; "-" is standard input. @throws CommandError, SceneError
 nlohmann::json read_document(const std::string& path);
 
@@ -46,6 +49,8 @@ void add_serve(CLI::App& app);
 void add_render(CLI::App& app);
 void add_radiance(CLI::App& app);
 void add_plan(CLI::App& app);
+void add_compare(CLI::App& app);
+void add_explain(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_health(CLI::App& app);
 void add_contact_sheet(CLI::App& app);

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/encode.h"
+#include "engine/image/font.h"
 #include "engine/scene/document.h"
 #include "server/commands/command.h"
-#include "server/commands/font.h"
 
 namespace cyanometer {
 namespace {
@@ -32,15 +32,7 @@ struct Sheet {
     }
   }
   void write(const std::string& text, int x, int y, int right) {
-    for (const char c : text) {
-      if (x + font_width > right) return;
-      for (int row = 0; row < font_height; ++row) {
-        for (int column = 0; column < font_width; ++column) {
-          if (font_pixel(c, column, row)) std::fill_n(at(x + column, y + row), 3, 220);
-        }
-      }
-      x += font_width + 1;
-    }
+    draw_text(rgbx.data(), width, x, y, right, text, {220, 220, 220});
   }
 };
 

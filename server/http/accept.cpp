@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "server/http/problem.h"
+
 namespace cyanometer {
 namespace {
 
@@ -82,6 +84,16 @@ std::optional<std::size_t> preferred(std::string_view accept,
     }
   }
   return best;
+}
+
+std::size_t negotiated(const std::string& accept, const std::vector<std::string_view>& types) {
+  if (accept.empty()) return 0;
+  if (const auto best = preferred(accept, types)) return *best;
+  HttpProblem problem(406, "None of the media types that Accept names can be made here.");
+  problem.given = accept;
+  for (const auto type : types)
+    problem.allowed += (problem.allowed.empty() ? "" : ", ") + std::string(type);
+  throw problem;
 }
 
 }  // namespace cyanometer

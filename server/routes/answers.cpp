@@ -78,6 +78,17 @@ std::vector<Direction> read_directions(const json& document) {
   return out;
 }
 
+/// A scene that is a member of the body.
+Scene read_scene_at(const std::string& pointer, const json& document) {
+  try {
+    return read_scene(document);
+  } catch (const SceneError& error) {
+    const std::string what = error.what();
+    throw SceneError(pointer + error.pointer, error.given, error.allowed,
+                     what.starts_with('/') ? pointer + what : what);
+  }
+}
+
 }  // namespace
 
 json plan_document(const Scene& scene, const Plan& plan) {
@@ -93,13 +104,7 @@ json plan_document(const Scene& scene, const Plan& plan) {
 RadianceRequest read_radiance_request(const json& document) {
   check_members(document, "", {"scene", "directions", "irradiance"});
   RadianceRequest out;
-  try {
-    out.scene = read_scene(document.value("scene", json::object()));
-  } catch (const SceneError& error) {
-    const std::string what = error.what();
-    throw SceneError("/scene" + error.pointer, error.given, error.allowed,
-                     what.starts_with('/') ? "/scene" + what : what);
-  }
+  out.scene = read_scene_at("/scene", document.value("scene", json::object()));
   out.directions = read_directions(document);
   const auto irradiance = document.find("irradiance");
   if (irradiance != document.end()) {
@@ -123,6 +128,40 @@ json radiance_document(const Radiances& radiances) {
     out["irradiance"] = {{"direct", flux->direct},
                          {"diffuse_down", flux->diffuse_down},
                          {"diffuse_up", flux->diffuse_up}};
+  }
+  return out;
+}
+
+CompareRequest read_compare_request(const json& document) {
+  check_members(document, "", {"a", "b"});
+  const auto scene_at = [&](const std::string& name) {
+    if (!document.contains(name)) miss("/" + name, "a scene");
+    return read_scene_at("/" + name, document[name]);
+  };
+  CompareRequest out{scene_at("a"), scene_at("b")};
+  check_comparable(out.a, out.b);
+  return out;
+}
+
+json comparison_document(const Comparison& comparison) {
+  const ErrorMeasure& measure = comparison.measure;
+  json out{{"error", measure.error},
+           {"bias", measure.bias},
+           {"p99", measure.p99},
+           {"max", measure.max},
+           {"ciede2000_p99", comparison.ciede2000_p99},
+           {"banding", comparison.banding}};
+  if (comparison.error_95) out["error_95"] = *comparison.error_95;
+  return out;
+}
+
+json explanation_document(const std::vector<Worth>& ingredients) {
+  json out = json::object();
+  for (const Worth& worth : ingredients) {
+    json difference = nullptr;
+    if (worth.ciede2000) difference = *worth.ciede2000;
+    out[worth.name] = {
+        {"error", worth.error}, {"ciede2000", difference}, {"ms_saved", worth.ms_saved}};
   }
   return out;
 }

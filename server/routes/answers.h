@@ -4,6 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "engine/accuracy/comparison.h"
+#include "engine/accuracy/ingredients.h"
 #include "engine/engine.h"
 
 namespace cyanometer {
@@ -23,5 +25,18 @@ RadianceRequest read_radiance_request(const nlohmann::json& document);
 
 /// The answer of /v1/radiance.
 nlohmann::json radiance_document(const Radiances& radiances);
+
+/// The body of /v1/compare, read: scenes that can be compared.
+struct CompareRequest {
+  Scene a, b;
+};
+/// @throws SceneError with pointers into the body
+CompareRequest read_compare_request(const nlohmann::json& document);
+
+/// The answer of /v1/compare.
+nlohmann::json comparison_document(const Comparison& comparison);
+
+/// The answer of /v1/explain.
+nlohmann::json explanation_document(const std::vector<Worth>& ingredients);
 
 }  // namespace cyanometer

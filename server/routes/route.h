@@ -32,6 +32,8 @@ Route render_link();
 Route radiance_post();
 Route plan_post();
 Route plan_link();
+Route compare_post();
+Route explain_post();
 Route methods_list();
 Route presets_list();
 Route limits_list();

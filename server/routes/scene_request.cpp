@@ -43,19 +43,12 @@ nlohmann::json negotiate_format(nlohmann::json document, const Request& request)
   if (accept.empty() || !document.is_object() || names_format(document)) return document;
   std::vector<std::string_view> types;
   for (const auto& each : encodings()) types.push_back(each.media_type);
-  const auto best = preferred(accept, types);
-  if (!best) {
-    HttpProblem problem(406, "None of the media types that Accept names can be rendered.");
-    problem.given = accept;
-    for (const auto type : types)
-      problem.allowed += (problem.allowed.empty() ? "" : ", ") + std::string(type);
-    throw problem;
-  }
+  const auto best = negotiated(accept, types);
   if (!document.contains("image") || document["image"].is_null()) {
     document["image"] = nlohmann::json::object();
   }
   // An image that is no object is left to be refused with the document.
-  if (document["image"].is_object()) document["image"]["format"] = encodings()[*best].name;
+  if (document["image"].is_object()) document["image"]["format"] = encodings()[best].name;
   return document;
 }
 

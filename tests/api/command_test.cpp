@@ -84,8 +84,9 @@ class Program {
 };
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
-  for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
-                           "contact-sheet", "schema", "bench", "chart", "audit", "profile"}) {
+  for (const auto* name :
+       {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
+        "bench", "chart", "audit", "profile", "compare", "explain"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -128,6 +129,38 @@ TEST(Command, RenderRefusesASceneByName) {
   EXPECT_EQ(run.wait(), 2);
   EXPECT_THAT(run.err(), ::testing::HasSubstr("/planet/radius_km"));
   EXPECT_TRUE(run.out().empty());
+}
+
+TEST(Command, CompareTakesScenesAndPictures) {
+  TemporaryFolder folder;
+  auto scene = small_scene();
+  scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
+  scene["method"] = {{"scattering_orders", 1}};
+  std::ofstream(folder / "b.json") << scene.dump();
+  Program same({"compare", "-", folder / "b.json", "-o", folder / "error.png"}, scene.dump());
+  EXPECT_EQ(same.wait(), 0) << same.err();
+  EXPECT_EQ(json::parse(same.out()).at("error"), 0);
+  EXPECT_TRUE(read_file(folder / "error.png").starts_with("\x89PNG"));
+  Program render({"render", folder / "b.json", "-o", folder / "a.exr"});
+  EXPECT_EQ(render.wait(), 0) << render.err();
+  Program judged({"compare", folder / "a.exr", folder / "b.json"});
+  EXPECT_EQ(judged.wait(), 0) << judged.err();
+  EXPECT_LT(json::parse(judged.out()).at("error"), 0.02);
+  Program larger({"compare", folder / "a.exr", "-"}, "{}");
+  EXPECT_EQ(larger.wait(), 2);
+  EXPECT_THAT(larger.err(), ::testing::HasSubstr("16 x 8"));
+}
+
+TEST(Command, ExplainPrintsATableOrTheDocument) {
+  const std::string scene =
+      R"({"method":{"scattering_orders":1},"spectrum":{"wavelengths_nm":[680,550,440]}})";
+  Program table({"explain", "-"}, scene);
+  EXPECT_EQ(table.wait(), 0) << table.err();
+  EXPECT_THAT(table.out(), ::testing::HasSubstr("CIEDE2000"));
+  EXPECT_LT(table.out().find("air"), table.out().find("ozone"));
+  Program document({"explain", "-", "--json"}, scene);
+  EXPECT_EQ(document.wait(), 0) << document.err();
+  EXPECT_TRUE(json::parse(document.out()).contains("curvature"));
 }
 
 TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {

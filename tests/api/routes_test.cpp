@@ -286,6 +286,137 @@ TEST(Plan, IsTheSameAsThatOfTheFrame) {
   EXPECT_EQ(frame->get_header_value("Cyanometer-Method"), plan.at("method"));
 }
 
+// ---- compare and explain
+// ---------------------------------------------------------------------------
+
+/// Quick to compare: three wavelengths, single scattering, no plan.
+json quick_scene(double albedo = 0.1) {
+  json scene = small_scene();
+  scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
+  scene["method"] = {{"name", "raymarch"}, {"scattering_orders", 1}};
+  scene["planet"] = {{"ground_albedo", albedo}};
+  return scene;
+}
+
+const std::string quick_link =
+    "/v1/compare?image.width=16&image.height=8&spectrum.wavelengths_nm=[680,550,440]"
+    "&method.scattering_orders=1";
+
+std::string exr_of(json scene) {
+  scene["image"]["format"] = "exr";
+  const auto answer = post("/v1/render", scene);
+  return answer && answer->status == 200 ? answer->body : "";
+}
+
+httplib::Result judge(const std::string& link, const std::string& exr,
+                      const httplib::Headers& headers = {}) {
+  return client().Post(link, headers, exr, "image/x-exr");
+}
+
+TEST(Compare, TwoScenesGiveTheFiguresOfTheContract) {
+  const auto answer = post("/v1/compare", {{"a", quick_scene(0.2)}, {"b", quick_scene()}});
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/json");
+  const auto figures = json::parse(answer->body);
+  EXPECT_EQ(figures.size(), 6u);
+  for (const auto* name : {"error", "bias", "p99", "max", "ciede2000_p99", "banding"}) {
+    EXPECT_TRUE(figures.at(name).is_number()) << name;
+  }
+  EXPECT_GT(figures.at("bias"), 0);
+}
+
+TEST(Compare, TheAcceptHeaderAsksForAPicture) {
+  const json body{{"a", quick_scene()}, {"b", quick_scene()}};
+  const auto picture = post("/v1/compare", body, {{"Accept", "image/png"}});
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->status, 200) << picture->body;
+  EXPECT_EQ(picture->get_header_value("Content-Type"), "image/png");
+  EXPECT_TRUE(picture->body.starts_with("\x89PNG"));
+  const auto any = post("/v1/compare", body, {{"Accept", "*/*"}});
+  ASSERT_TRUE(any);
+  EXPECT_EQ(any->get_header_value("Content-Type"), "application/json");
+  const auto neither = post("/v1/compare", body, {{"Accept", "image/jpeg"}});
+  expect_problem(neither, 406);
+  EXPECT_THAT(json_of(neither).at("allowed"), ::testing::HasSubstr("image/png"));
+}
+
+TEST(Compare, TheBodyIsReadStrictly) {
+  auto wide = quick_scene(), coloured = quick_scene(), large = quick_scene();
+  wide["image"]["width"] = 17;
+  coloured["spectrum"]["colour"] = "cie";
+  large["image"] = {{"width", 8192}, {"height", 4096}};
+  const std::vector<std::tuple<json, int, std::string>> cases{
+      {json::object(), 400, "/a"},
+      {{{"a", quick_scene()}}, 400, "/b"},
+      {{{"a", quick_scene()}, {"b", 3}}, 400, "/b"},
+      {{{"a", quick_scene()}, {"b", quick_scene()}, {"c", 1}}, 400, "/c"},
+      {{{"a", {{"planet", {{"radius_km", -1}}}}}, {"b", json::object()}},
+       400,
+       "/a/planet/radius_km"},
+      {{{"a", json::object()}, {"b", {{"sun", {{"elevation_deg", 100}}}}}},
+       400,
+       "/b/sun/elevation_deg"},
+      {{{"a", quick_scene()}, {"b", wide}}, 400, "/b/image/width"},
+      {{{"a", quick_scene()}, {"b", coloured}}, 400, "/b/spectrum/colour"},
+      {{{"a", large}, {"b", large}}, 422, "/a/image/width"},
+  };
+  for (const auto& [body, status, pointer] : cases) {
+    SCOPED_TRACE(body.dump());
+    expect_problem(post("/v1/compare", body), status, pointer);
+  }
+}
+
+TEST(Compare, AnExrIsJudgedAgainstTheSceneOfTheLink) {
+  const std::string exr = exr_of(quick_scene());
+  const auto answer = judge(quick_link, exr);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  const auto figures = json::parse(answer->body);
+  EXPECT_LT(figures.at("error"), 0.005);
+  EXPECT_EQ(figures.at("error_95").size(), 2u);
+  const auto picture = judge(quick_link, exr, {{"Accept", "image/png"}});
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(picture->body.starts_with("\x89PNG")) << picture->body;
+}
+
+TEST(Compare, AnExrThatCannotBeJudgedIsRefusedWithItsReason) {
+  const std::string exr = exr_of(quick_scene());
+  const auto refusal = [](const httplib::Result& answer) -> std::string {
+    expect_problem(answer, 400);
+    return json_of(answer).at("detail");
+  };
+  EXPECT_THAT(refusal(judge(quick_link, "{}")), ::testing::HasSubstr("no OpenEXR"));
+  EXPECT_THAT(refusal(judge(quick_link, exr.substr(0, exr.size() / 2))),
+              ::testing::HasSubstr("EXR"));
+  EXPECT_THAT(refusal(judge(quick_link + "&planet.radius_km=-1", exr)),
+              ::testing::HasSubstr("/planet/radius_km"));
+  EXPECT_THAT(refusal(judge("/v1/compare?image.width=20&image.height=8", exr)),
+              ::testing::HasSubstr("20 x 8"));
+  expect_problem(judge(quick_link, exr, {{"Accept", "image/jpeg"}}), 406);
+}
+
+TEST(Explain, EveryIngredientHasItsWorth) {
+  const auto answer = post("/v1/explain", quick_scene());
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  const auto worths = json::parse(answer->body);
+  for (const auto* name : {"air", "aerosol", "ozone", "curvature", "ground"}) {
+    const auto& worth = worths.at(name);
+    EXPECT_GE(worth.at("error").get<double>(), 0) << name;
+    EXPECT_TRUE(worth.at("ciede2000").is_number()) << name;
+    EXPECT_TRUE(worth.at("ms_saved").is_number()) << name;
+  }
+  EXPECT_EQ(worths.size(), 5u);
+}
+
+TEST(Explain, RefusesAsOtherRoutesDo) {
+  expect_problem(post("/v1/explain", {{"planet", {{"radius_km", -1}}}}), 400,
+                 "/planet/radius_km");
+  expect_problem(client().Post("/v1/explain", "", "application/json"), 400);
+  expect_problem(post("/v1/explain", quick_scene(), {{"Accept", "image/png"}}), 406);
+}
+
 // ---- lists, documents, operations
 // -----------------------------------------------------------------
 
@@ -407,7 +538,7 @@ TEST(Addresses, UnknownOnesAreNotFound) {
 }
 
 TEST(Addresses, WhatThisVersionLacksSaysSo) {
-  for (const auto* path : {"/v1/stream", "/v1/composite", "/v1/compare", "/v1/explain"}) {
+  for (const auto* path : {"/v1/stream", "/v1/composite"}) {
     const auto answer = client().Post(path, "{}", "application/json");
     expect_problem(answer, 404);
     EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr("version"));

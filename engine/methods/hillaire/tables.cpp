@@ -71,8 +71,9 @@ void fill_over_directions(Tracer& tracer, const UploadedScene& scene, const Fill
   std::int64_t rounds = nodes * (scene.density_iterations() + 2) + scene.media() * 16;
   std::int64_t direction = nodes * evaluations_per_node(scene);
   std::int64_t some = std::min<std::int64_t>(entries, 1024) * direction;
-  std::int64_t fit = std::clamp<std::int64_t>(tracer.pacer.evaluations() / some, 1,
-                                              most_loop_iterations / rounds);
+  std::int64_t fit =
+      std::clamp<std::int64_t>(tracer.pacer.evaluations() / some, 1,
+                               std::max<std::int64_t>(usual_loop_iterations / rounds, 1));
   for (int first = 0; first < push.directions; first = push.end_direction) {
     push.first_direction = first;
     push.end_direction = static_cast<int>(std::min<std::int64_t>(push.directions, first + fit));

@@ -77,6 +77,7 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
                           .orders = chosen("orders", orders_until_geometric(problem)),
                           .tail = true};
   settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
+  settings.steps = std::min(settings.steps, int{Physics<float>::MOST_GAUSS_NODES});
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
   if (wanted > 0 && wanted - 1 <= most_orders) {
@@ -263,7 +264,7 @@ class Moments final : public Method {
     require_rounds(scene, rounds_of_a_piece(scene, view_nodes));
     int all_pieces = most_pieces(scene);
     int pieces =
-        std::min(most_loop_iterations / rounds_of_a_piece(scene, view_nodes), all_pieces);
+        std::clamp(usual_loop_iterations / rounds_of_a_piece(scene, view_nodes), 1, all_pieces);
     std::vector<vulkan::Binding> bindings =
         scene.bind({tables.series, tables.moments, sky.values, tile.values,
                     progress_for(tracer.device, tile.rays)});

@@ -69,8 +69,11 @@ class Solution {
   }
 
   void trace_first_order(const vulkan::Kernel& kernel) {
-    int rounds = 2 * rounds_of_a_piece(scene_, first_steps());
-    int at_once = std::max(most_loop_iterations / rounds, 1);
+    // A part of a ray on either side of the shadow, and the series of phase functions.
+    int series = (2 * settings_.degree + 3) * scene_.media() *
+                 (scene_.problem().sun_distance_km > 0 ? first_steps() : 1);
+    int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree;
+    int at_once = std::max(usual_loop_iterations / rounds, 1);
     require_rounds(scene_, rounds);
     for (int first = 0; first < settings_.azimuths; first += at_once) {
       Push part = push();

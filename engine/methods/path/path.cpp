@@ -166,7 +166,7 @@ class PathTracing final : public Method {
     constants.push_back(segments);
     constants.push_back(guided);
     std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
-    std::int64_t most = most_loop_iterations / loops_of_step(scene);
+    std::int64_t most = std::max<std::int64_t>(usual_loop_iterations / loops_of_step(scene), 1);
     do {
       push.steps = static_cast<int>(
           std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));

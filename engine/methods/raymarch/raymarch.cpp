@@ -79,7 +79,7 @@ int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
                         std::to_string(scene.profile_nodes()) +
                         " nodes, more than a march of so many view nodes can follow");
   }
-  return std::min(most_loop_iterations / a_piece, most_pieces);
+  return std::clamp(usual_loop_iterations / a_piece, 1, most_pieces);
 }
 
 std::int64_t march_evaluations(std::int64_t media, int view_nodes) {

@@ -13,7 +13,7 @@ std::int64_t evaluations_per_column(const Problem& problem) {
 }
 
 int columns_at_once(const Problem& problem) {
-  std::int64_t most = most_loop_iterations / evaluations_per_column(problem);
+  std::int64_t most = usual_loop_iterations / evaluations_per_column(problem);
   return static_cast<int>(std::max<std::int64_t>(most, 1));
 }
 

@@ -1,6 +1,6 @@
-#include "server/commands/font.h"
+#include "engine/image/font.h"
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 
 namespace cyanometer {
@@ -50,7 +50,8 @@ constexpr std::array<Glyph, 10> digits{{
     {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c},  // 9
 }};
 constexpr Glyph blank{}, hyphen{0, 0, 0, 0x1f}, underscore{0, 0, 0, 0, 0, 0, 0x1f},
-    full_stop{0, 0, 0, 0, 0, 0, 0x04};
+    full_stop{0, 0, 0, 0, 0, 0, 0x04}, plus{0, 0x04, 0x04, 0x1f, 0x04, 0x04, 0},
+    percent{0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03};
 
 const Glyph& glyph(char c) {
   if (c >= 'a' && c <= 'z') return letters[static_cast<std::size_t>(c - 'a')];
@@ -58,6 +59,8 @@ const Glyph& glyph(char c) {
   if (c >= '0' && c <= '9') return digits[static_cast<std::size_t>(c - '0')];
   if (c == '-') return hyphen;
   if (c == '_') return underscore;
+  if (c == '+') return plus;
+  if (c == '%') return percent;
   return c == '.' ? full_stop : blank;
 }
 
@@ -66,6 +69,22 @@ const Glyph& glyph(char c) {
 bool font_pixel(char letter, int column, int row) {
   const int bit = font_width - 1 - column;
   return (glyph(letter)[static_cast<std::size_t>(row)] >> bit & 1) != 0;
+}
+
+void draw_text(unsigned char* rgbx, int width, int x, int y, int right, std::string_view text,
+               const std::array<unsigned char, 3>& colour) {
+  for (const char c : text) {
+    if (x + font_width > right) return;
+    for (int row = 0; row < font_height; ++row) {
+      for (int column = 0; column < font_width; ++column) {
+        if (!font_pixel(c, column, row)) continue;
+        const auto at = static_cast<std::size_t>(y + row) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(x + column);
+        std::copy(colour.begin(), colour.end(), rgbx + 4 * at);
+      }
+    }
+    x += font_width + 1;
+  }
 }
 
 }  // namespace cyanometer
