@@ -48,29 +48,46 @@ std::vector<double> differences_from(std::span<const double> from,
   return differences;
 }
 
-/// The error of values of which the squares are known but for noise: some of them may be
-/// negative.
-double error_of_squares(const std::vector<double>& squares) {
+/// A difference as two independent estimates of it tell.
+struct NoisyDifference {
+  double mean, square, noise;
+  NoisyDifference(double a, double b)
+      : mean((a + b) / 2), square(a * b), noise(std::abs(a - b) / 2) {}
+};
+
+/// Percentiles of noisy values, with the noise's own taken out in quadrature: exact for normal
+/// errors under normal noise, and nothing where there is noise alone.
+double p99_of(const std::vector<NoisyDifference>& differences) {
+  std::vector<double> seen, noise;
+  for (const NoisyDifference& d : differences) {
+    seen.push_back(std::abs(d.mean));
+    noise.push_back(d.noise);
+  }
+  double all = percentile(std::move(seen), 0.99), chance = percentile(std::move(noise), 0.99);
+  return std::sqrt(std::max(all * all - chance * chance, 0.0));
+}
+
+double error_of(const std::vector<NoisyDifference>& differences) {
   double sum = 0;
-  for (double square : squares) sum += square;
-  double rms = std::sqrt(std::max(sum, 0.0) / static_cast<double>(squares.size()));
-  double p99 = std::sqrt(std::max(percentile(squares, 0.99), 0.0));
-  return std::max(rms, p99 / 3);
+  for (const NoisyDifference& d : differences) sum += d.square;
+  double rms = std::sqrt(std::max(sum, 0.0) / static_cast<double>(differences.size()));
+  return std::max(rms, p99_of(differences) / 3);
 }
 
 /// The error of pixels drawn with replacement, many times over; ascending.
-std::vector<double> bootstrap(const std::vector<double>& squares, std::size_t channels) {
+std::vector<double> bootstrap(const std::vector<NoisyDifference>& differences,
+                              std::size_t channels) {
   constexpr int samples = 200;
   std::mt19937 random(1);
-  std::uniform_int_distribution<std::size_t> pixel(0, squares.size() / channels - 1);
+  std::uniform_int_distribution<std::size_t> pixel(0, differences.size() / channels - 1);
   std::vector<double> errors;
-  std::vector<double> drawn(squares.size());
+  std::vector<NoisyDifference> drawn = differences;
   for (int sample = 0; sample < samples; ++sample) {
     for (std::size_t i = 0; i < drawn.size(); i += channels) {
       std::size_t from = pixel(random) * channels;
-      for (std::size_t c = 0; c < channels; ++c) drawn[i + c] = squares[from + c];
+      for (std::size_t c = 0; c < channels; ++c) drawn[i + c] = differences[from + c];
     }
-    errors.push_back(error_of_squares(drawn));
+    errors.push_back(error_of(drawn));
   }
   std::ranges::sort(errors);
   return errors;
@@ -126,16 +143,16 @@ EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const P
                       b = differences_from(flat(half_b), l, mean, channels);
   EstimatedError estimate;
   if (a.empty()) return estimate;
-  std::vector<double> squares(a.size());
+  std::vector<NoisyDifference> differences;
   ErrorMeasure& measure = estimate.measure;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    squares[i] = a[i] * b[i];
-    measure.bias += (a[i] + b[i]) / 2 / static_cast<double>(a.size());
-    measure.max = std::max(measure.max, std::sqrt(std::max(squares[i], 0.0)));
+    const NoisyDifference& d = differences.emplace_back(a[i], b[i]);
+    measure.bias += d.mean / static_cast<double>(a.size());
+    measure.max = std::max(measure.max, std::abs(d.mean));
   }
-  measure.p99 = std::sqrt(std::max(percentile(squares, 0.99), 0.0));
-  measure.error = error_of_squares(squares);
-  std::vector<double> errors = bootstrap(squares, channels);
+  measure.p99 = p99_of(differences);
+  measure.error = error_of(differences);
+  std::vector<double> errors = bootstrap(differences, channels);
   estimate.low = errors[errors.size() / 40];
   estimate.high = errors[errors.size() - 1 - errors.size() / 40];
   return estimate;

@@ -42,10 +42,10 @@ struct EstimatedError {
 };
 
 /// The same measure against a solution known by two independent, equally noisy estimates A and
-/// B: d_A d_B has the expectation d^2, so that the reference's noise does not enter the rms,
-/// and enters percentile and maximum (of the root of d_A d_B where that is positive) little.
-/// The interval is of 200 bootstrap samples over pixels, of which it holds both the choice and
-/// the noise.
+/// B: d_A d_B has the expectation d^2, so that the reference's noise does not enter the rms;
+/// from the percentile of |d_A + d_B| / 2 that of |d_A - d_B| / 2, which is noise alone, is
+/// taken out in quadrature; the maximum has it. The interval is of 200 bootstrap samples over
+/// pixels, of which it holds both the choice and the noise.
 EstimatedError measure_error(const std::vector<std::vector<double>>& values,
                              const std::vector<std::vector<double>>& half_a,
                              const std::vector<std::vector<double>>& half_b);

@@ -68,13 +68,14 @@ class Judge {
 /// before.
 class QuickJudge final : public Judge {
  public:
-  QuickJudge(const Method& method, const TraceProbe& probe,
+  /// @param rung  of the method's ladder, at least 1
+  QuickJudge(const Method& method, std::size_t rung, const TraceProbe& probe,
              const std::vector<double>& wavelengths_nm) {
     const MethodDescription& description = method.description();
-    const auto& ladder = description.ladder;
-    best_ = probe(description.name, ladder.back(), wavelengths_nm);
-    Samples coarser = probe(description.name, ladder[ladder.size() - 2], wavelengths_nm);
-    best_error_ = measure_error(coarser, best_).error;
+    best_ = probe(description.name, description.ladder[rung], wavelengths_nm);
+    Samples coarser = probe(description.name, description.ladder[rung - 1], wavelengths_nm);
+    // From one setting to the next errors fall by half and more.
+    best_error_ = measure_error(coarser, best_).error / 2;
   }
 
   double bound(const Samples& samples) override {
@@ -158,8 +159,20 @@ class Planner {
                                          few_,
                                          in_.scene.method.max_error.value_or(usual_error));
     }
-    return std::make_unique<QuickJudge>(
-        method(single_scattering(in_.scene) ? "raymarch" : "moments"), in_.probe, few_);
+    const Method& best = method(single_scattering(in_.scene) ? "raymarch" : "moments");
+    return std::make_unique<QuickJudge>(best, affordable_rung(best), in_.probe, few_);
+  }
+
+  /// The finest setting with which a judgement stays quick; of the first two, where none does.
+  std::size_t affordable_rung(const Method& judge) const {
+    constexpr double longest_ms = 1500;
+    std::size_t rung = judge.description().ladder.size() - 1;
+    auto ms = [&] {
+      return expected_ms(in_.profile, judge, judge.description().ladder[rung], problem_, 256,
+                         few_.size());
+    };
+    while (rung > 1 && ms() > longest_ms) --rung;
+    return rung;
   }
 
   Choice choice(const Method& method, const MethodOptions& options) const {

@@ -59,12 +59,12 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
     int value = option(options, name);
     return value > 0 ? value : otherwise;
   };
-  bool finer_tables = option(options, "finer") != 0;
   constexpr int highest_degree = 8;
-  int degree =
-      chosen("degree", std::min(degree_for(problem) + (finer_tables ? 2 : 0), highest_degree));
+  int usual_degree = degree_for(problem);
+  bool more = option(options, "finer") != 0, higher = usual_degree < highest_degree;
+  int degree = chosen("degree", std::min(usual_degree + (more ? 2 : 0), highest_degree));
   auto sized = [&](const char* name, int usual) {
-    return chosen(name, finer_tables ? usual * 3 / 2 : usual);
+    return chosen(name, more && !higher ? usual * 5 / 4 : usual);
   };
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
   int thick = static_cast<int>(std::min(1.5 * largest_depth(problem), 12.0));
@@ -383,11 +383,10 @@ const MethodDescription& moments_description() {
                  "Orders that are traced before a geometric series takes over; 0 takes as many "
                  "as the air's depth and the ground's albedo ask for.",
                  0, 64, 0),
-           whole(
-               "finer", "Finer",
-               "1: all that follows from the scene is half as fine again, the degree higher by "
-               "two.",
-               0, 1, 0),
+           whole("finer", "Finer",
+                 "1: all that follows from the scene is a quarter finer, the degree higher by "
+                 "two.",
+                 0, 1, 0),
            whole("view_nodes", "View nodes",
                  "Gauss nodes of order one on each smooth piece of a view ray.", 1,
                  Physics<float>::MOST_GAUSS_NODES, 6),
