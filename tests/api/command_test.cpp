@@ -170,8 +170,7 @@ TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {
                                            "--rays",       "16",
                                            "--pixels",     "64",
                                            "--references", folder / "references",
-                                           "-o",           folder / "chart",
-                                           "audit",        "profile"};
+                                           "-o",           folder / "chart"};
   const std::string scene = R"({"method":{"scattering_orders":1}})";
   Program run(arguments, scene);
   EXPECT_EQ(run.wait(), 0) << run.err();
