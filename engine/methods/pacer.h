@@ -11,8 +11,8 @@ namespace cyanometer {
 /// Rounds of all its loops together that an invocation may make, with a margin: Mesa's software
 /// drivers end every loop of an invocation without a word after 65,535.
 inline constexpr int most_loop_iterations = 60000;
-/// What work is cut to where it can be cut: rounds are counted from the source, and drivers have been
-/// seen to count half as many again (a haze of three tabulated profiles).
+/// What work is cut to where it can be cut: rounds are counted from the source, and drivers
+/// have been seen to count half as many again (a haze of three tabulated profiles).
 inline constexpr int usual_loop_iterations = most_loop_iterations / 2;
 
 class Pacer {
