@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "engine/display/compositor.h"
+#include "engine/fingerprint.h"
 #include "engine/image/encode.h"
 #include "engine/irradiance.h"
 #include "engine/methods/method.h"
@@ -581,12 +582,7 @@ std::vector<DeviceDescription> list_devices(const EngineOptions& options) {
 std::string atmosphere_key(const Scene& scene) {
   nlohmann::json document = canonical(scene);
   nlohmann::json air{document["planet"], document["atmosphere"], document["spectrum"]};
-  // FNV-1a, 64 bits: a key for caches, not a secret.
-  std::uint64_t hash = 14695981039346656037u;
-  for (unsigned char byte : air.dump()) hash = (hash ^ byte) * 1099511628211u;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return fingerprint(air.dump());
 }
 
 std::string version() { return CYANOMETER_VERSION; }

@@ -1,12 +1,12 @@
 #include "engine/accuracy/reference.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "engine/accuracy/error.h"
+#include "engine/fingerprint.h"
 #include "engine/scene/document.h"
 
 namespace cyanometer {
@@ -31,15 +31,6 @@ Scene undressed(const Scene& scene) {
 
 json identity_of(const Scene& scene, const ReferenceGoal& goal) {
   return {{"scene", canonical(undressed(scene))}, {"rays", goal.rays}, {"version", version()}};
-}
-
-std::filesystem::path file_for(const std::filesystem::path& folder, const json& identity) {
-  // FNV-1a, 64 bits; the file itself says what it is of.
-  std::uint64_t hash = 14695981039346656037u;
-  for (unsigned char byte : identity.dump()) hash = (hash ^ byte) * 1099511628211u;
-  char name[32];
-  std::snprintf(name, sizeof name, "%016llx.json", static_cast<unsigned long long>(hash));
-  return folder / name;
 }
 
 /// Whether the halves have the shape that the rest relies on.
@@ -112,7 +103,8 @@ Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal
                          const std::filesystem::path& folder, const Watch& watch) {
   constexpr std::int64_t first_walks = 256;
   json identity = identity_of(scene, goal);
-  std::filesystem::path file = folder.empty() ? "" : file_for(folder, identity);
+  std::filesystem::path file =
+      folder.empty() ? "" : folder / (fingerprint(identity.dump()) + ".json");
   Reference reference;
   reference.directions = sample_directions(scene, goal.rays);
   if (!file.empty()) load(file, identity, scene.spectrum.wavelengths_nm.size(), reference);

@@ -1,9 +1,9 @@
 #include "engine/planner/profile.h"
 
-#include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "engine/fingerprint.h"
 
 namespace cyanometer {
 namespace {
@@ -11,12 +11,7 @@ namespace {
 using nlohmann::json;
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& device) {
-  // FNV-1a, 64 bits; the file itself says what it is of.
-  std::uint64_t hash = 14695981039346656037u;
-  for (unsigned char byte : device) hash = (hash ^ byte) * 1099511628211u;
-  char name[32];
-  std::snprintf(name, sizeof name, "%016llx.json", static_cast<unsigned long long>(hash));
-  return folder / name;
+  return folder / (fingerprint(device) + ".json");
 }
 
 }  // namespace

@@ -23,28 +23,31 @@ struct Arguments {
   std::filesystem::path references = cache_folder("references");
 };
 
-/// What an earlier run left, one scene a line.
-std::vector<json> read_lines(const std::string& path) {
+/// What an earlier run of this version on this device left, one scene a line.
+std::vector<json> read_lines(const std::string& path, const json& by) {
   std::vector<json> scenes;
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);) {
     json scene = json::parse(line, nullptr, false);
-    if (scene.is_object()) scenes.push_back(std::move(scene));
+    if (scene.is_object() && scene.value("by", json()) == by)
+      scenes.push_back(std::move(scene));
   }
   return scenes;
 }
 
 void audit(const Arguments& arguments) {
   const Watch watch = command_watch();
-  std::vector<json> scenes = read_lines(arguments.file);
+  Engine engine = command_engine(arguments.device);
+  const json by{{"version", version()}, {"device", engine.device().name}};
+  std::vector<json> scenes = read_lines(arguments.file, by);
   std::ofstream out(arguments.file, std::ios::app);
   if (!out) throw CommandError(exit_failed, "cannot write " + arguments.file);
-  Engine engine = command_engine(arguments.device);
   for (std::uint64_t seed = arguments.first; seed < arguments.first + arguments.scenes;
        ++seed) {
     auto known = [&](const json& scene) { return scene.at("seed") == seed; };
     if (std::ranges::any_of(scenes, known)) continue;
     scenes.push_back(audit_scene(engine, seed, arguments.goal, arguments.references, watch));
+    scenes.back()["by"] = by;
     out << scenes.back() << std::endl;
     end_progress();
     std::fprintf(stderr, "%zu scenes\r", scenes.size());

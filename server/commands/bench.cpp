@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "engine/accuracy/chart.h"
-#include "engine/cache_folder.h"
 #include "engine/scene/document.h"
+#include "server/commands/chart_options.h"
 #include "server/commands/command.h"
 
 namespace cyanometer {
@@ -73,28 +73,15 @@ void add_bench(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   ChartSettings& settings = arguments->settings;
   settings.defaults_only = true;
-  settings.references = cache_folder("references");
   settings.reference = {256, 0.003, 4096};
   command->add_option("--preset", arguments->presets, "Only these; may be repeated");
-  command->add_option("--method", settings.methods, "Only these; may be repeated");
-  command->add_option("--rays", settings.reference.rays, "Rays on which errors are measured")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
-  command
-      ->add_option("--most-walks", settings.reference.most_walks,
-                   "A ray in each half of the reference, however noisy that leaves it")
-      ->check(CLI::Range(256, 1 << 20))
-      ->capture_default_str();
-  command->add_option("--pixels", settings.pixels, "Of the frames that are timed")
-      ->check(CLI::Range(64, 1 << 24))
-      ->capture_default_str();
+  add_chart_options(*command, settings);
   command->add_option("--json", arguments->json_output, "Also as JSON in this file");
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(
-      "Methods at their defaults; `chart` varies them. Errors are in the contract's measure "
-      "against\npath, at three wavelengths; times are medians, of frames with tables made and "
-      "of "
-      "the tables.\n"
+      "Methods at their defaults; `chart` varies them. Errors are in the contract's measure\n"
+      "against path, at three wavelengths; times are of frames with tables made, and of the "
+      "tables.\n"
       "Example: cyanometer bench --preset earth --preset mars_sunset");
   command->callback([arguments] { bench(*arguments); });
 }

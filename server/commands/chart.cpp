@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "engine/accuracy/chart_svg.h"
-#include "engine/cache_folder.h"
 #include "engine/scene/document.h"
+#include "server/commands/chart_options.h"
 #include "server/commands/command.h"
 
 namespace cyanometer {
@@ -102,34 +102,17 @@ void add_chart(CLI::App& app) {
       "Speed against accuracy of every method, as chart.svg, chart.csv and chart.json");
   const auto arguments = std::make_shared<Arguments>();
   ChartSettings& settings = arguments->settings;
-  settings.references = cache_folder("references");
   command->add_option(
       "scene", arguments->files,
       "Scene documents, - is standard input; without any, presets that span what there is");
   command->add_option("--preset", arguments->presets, "Presets; may be repeated");
   command->add_option("-o,--output", arguments->folder, "Folder; what is there goes on")
       ->required();
-  command->add_option("--method", settings.methods, "Only these; may be repeated");
-  command->add_option("--rays", settings.reference.rays, "Rays on which errors are measured")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
-  command->add_option("--noise", settings.reference.noise, "Of the reference, at most")
-      ->check(CLI::Range(1e-5, 1.0))
-      ->capture_default_str();
-  command
-      ->add_option("--most-walks", settings.reference.most_walks,
-                   "A ray in each half of the reference, however noisy that leaves it")
-      ->check(CLI::Range(256, 1 << 20))
-      ->capture_default_str();
-  command->add_option("--pixels", settings.pixels, "Of the frames that are timed")
-      ->check(CLI::Range(64, 1 << 24))
-      ->capture_default_str();
+  add_chart_options(*command, settings);
   command
       ->add_option("--longest-ms", settings.longest_ms,
                    "Costlier settings than one whose frame takes longer are left out")
       ->check(CLI::Range(1.0, 1e7))
-      ->capture_default_str();
-  command->add_option("--references", settings.references, "Folder of references")
       ->capture_default_str();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(

@@ -367,5 +367,27 @@ TEST(Moments, AreFiniteAndNotNegativeInThickDarkAndStrangeScenes) {
   }
 }
 
+// Profiles of tables are searched in loops, and drivers end all loops of an invocation, without
+// a word, after so many rounds: many azimuths must be cut into several dispatches in time.
+TEST(Moments, AreNotCutShortByTheirLoops) {
+  Scene scene =
+      read_scene({{"preset", "titan"},
+                  {"spectrum", {{"wavelengths_nm", {680, 550, 440}}, {"colour", "channels"}}},
+                  {"camera", {{"altitude_km", 0.5}, {"projection", "perspective"}}}});
+  auto at = [&](int azimuths) {
+    Plan plan;
+    plan.method = "moments";
+    plan.options = chosen("moments", {{"altitudes", 6},
+                                      {"suns", 10},
+                                      {"steps", 12},
+                                      {"directions", 6},
+                                      {"azimuths", azimuths}})
+                       .options;
+    plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
+    return device().radiance(scene, spread_directions(), false, plan).radiance;
+  };
+  EXPECT_LT(measure_error(at(16), at(8)).error, 0.02);
+}
+
 }  // namespace
 }  // namespace cyanometer
