@@ -248,6 +248,11 @@ CONSTANT Real DARKEST = 1e-16;  // per unit irradiance; what is less counts as t
 
 Vec4 moment_logarithm(Vec4 moment) { return log(max(moment, Vec4(DARKEST))); }
 
+// The light that a logarithm stands for; what counted as the darkest is none.
+Vec4 light_of_logarithm(Vec4 logarithm) {
+  return max(exp(logarithm) - Vec4(2.0 * DARKEST), Vec4(0.0));
+}
+
 Vec4 moment_ratio(Vec4 moment, Vec4 lowest) {
   return Vec4(lowest.x > DARKEST ? moment.x / lowest.x : 0.0,
               lowest.y > DARKEST ? moment.y / lowest.y : 0.0,

@@ -42,7 +42,7 @@ void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
     ScatteringAngle angle =
         scattering_angle(sun_ray(path.start, Vec3(0.0)).direction, path.direction);
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      Vec4 light = exp(sky_value(place, g));
+      Vec4 light = light_of_logarithm(sky_value(place, g));
       if (PARTICLES) {
         light = light * max(1.0 + sky_value(place, GROUPS + g) * aureole_towards(angle, g), 0.0);
       }
@@ -56,7 +56,7 @@ void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
     int s = min(int(node), push.fine_suns - 2);
     UNROLL for (int g = 0; g < GROUPS; ++g) {
       int at = push.irradiance + s * GROUPS + g;
-      ground[g] = ground[g] + lambertian(g) * exp(mix(moments[at], moments[at + GROUPS], node - Real(s)));
+      ground[g] = ground[g] + lambertian(g) * light_of_logarithm(mix(moments[at], moments[at + GROUPS], node - Real(s)));
     }
   }
 }

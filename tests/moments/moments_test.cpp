@@ -367,6 +367,18 @@ TEST(Moments, AreFiniteAndNotNegativeInThickDarkAndStrangeScenes) {
   }
 }
 
+TEST(Moments, AreNoneWhereThereIsNoAir) {
+  Scene scene =
+      read_scene({{"preset", "airless_moon"},
+                  {"spectrum", {{"wavelengths_nm", {680, 550, 440}}, {"colour", "channels"}}},
+                  {"camera", {{"altitude_km", 0.002}, {"pitch_deg", 0}}}});
+  scene.method = chosen("moments");
+  auto all = device().radiance(scene, spread_directions(), false).radiance;
+  scene.method = chosen("raymarch");
+  scene.method.scattering_orders = 1;
+  EXPECT_EQ(all, device().radiance(scene, spread_directions(), false).radiance);
+}
+
 // Profiles of tables are searched in loops, and drivers end all loops of an invocation, without
 // a word, after so many rounds: many azimuths must be cut into several dispatches in time.
 TEST(Moments, AreNotCutShortByTheirLoops) {
