@@ -14,17 +14,22 @@ CONSTANT int MOST_DEGREE = 12;   // of moments
 CONSTANT int MOST_MOMENTS = 91;  // l = 0 to 12, m = 0 to l
 CONSTANT int MOST_TERMS = 25;    // of a series in Legendre polynomials
 
+// Loops over l and m below are over a square, and skip what is not in its triangle: drivers unroll loops
+// inside others only where their ends are constant, and what is not unrolled goes through memory.
 int moment_index(int l, int m) { return l * (l + 1) / 2 + m; }
 
-// The m-th derivatives of the Legendre polynomials, P_l^(m)(mu): associated Legendre functions without
-// their sin^m [Abramowitz and Stegun 1964, eqs. 8.5.3 and 8.6.6].
+// The m-th derivatives of the Legendre polynomials over that of P_m, P_l^(m)(mu) / (2 m - 1)!!: associated
+// Legendre functions without their sin^m, and of a size that halves hold [Abramowitz and Stegun 1964, eqs. 8.5.3 and
+// 8.6.6].
 void zenith_polynomials(Real mu, int degree, OUT_ARRAY(Real, p, MOST_MOMENTS)) {
   UNROLL for (int m = 0; m <= degree; ++m) {
-    p[moment_index(m, m)] = m == 0 ? 1.0 : Real(2 * m - 1) * p[moment_index(max(m - 1, 0), max(m - 1, 0))];
-    UNROLL for (int l = m + 1; l <= degree; ++l) {
-      Real before = l > m + 1 ? p[moment_index(l - 2, m)] : 0.0;
-      p[moment_index(l, m)] =
-          (Real(2 * l - 1) * mu * p[moment_index(l - 1, m)] - Real(l + m - 1) * before) / Real(l - m);
+    UNROLL for (int l = 0; l <= degree; ++l) {
+      if (l == m) p[moment_index(l, m)] = 1.0;
+      if (l > m) {
+        Real before = l > m + 1 ? p[moment_index(l - 2, m)] : 0.0;
+        p[moment_index(l, m)] = (Real(2 * l - 1) / Real(l - m)) * mu * p[moment_index(l - 1, m)] -
+                                (Real(l + m - 1) / Real(l - m)) * before;
+      }
     }
   }
 }
@@ -41,10 +46,13 @@ void azimuth_terms(Real mu, Real mu_s, Real nu, int degree, OUT_ARRAY(Real, c, M
 }
 
 // What makes the addition theorem P_l(cos of an angle) = 4 pi / (2 l + 1) sum over m of
-// norm_lm P_l^(m)(mu) P_l^(m)(mu') (sin sin')^m cos(m (phi - phi')) true.
+// norm_lm p_lm(mu) p_lm(mu') (sin sin')^m cos(m (phi - phi')) true, p_lm from zenith_polynomials.
 Real harmonic_norm(int l, int m) {
   Real norm = Real(2 * l + 1) / (4.0 * PI) * (m > 0 ? 2.0 : 1.0);
-  UNROLL for (int i = l - m + 1; i <= l + m; ++i) norm /= Real(i);
+  UNROLL for (int i = 1; i <= MOST_DEGREE; ++i) {
+    int k = l - m + 2 * i;
+    if (i <= m) norm *= Real((2 * i - 1) * (2 * i - 1)) / Real((k - 1) * k);
+  }
   return norm;
 }
 
@@ -238,6 +246,46 @@ RayNode ray_node(Cuts cuts, Real x, Real weight) {
   node.t_km = max(cuts.origin_km + root * slope, 0.0);
   node.width_km = cuts.power * slope * span * weight;
   return node;
+}
+
+// --- Azimuths -----------------------------------------------------------------------------------------
+// Along a ray the axis' zenith cosine changes with the azimuth, in proportion to its cosine x. What a node of
+// the ray sends, beside the terms in azimuth that are known exactly, follows that smoothly: one to three
+// Chebyshev points in x stand for all azimuths.
+
+CONSTANT int MOST_POINTS = 5;
+
+// How many, where that many spacings of the sun's nodes lie between the azimuths 0 and pi.
+int azimuth_points(Real spacings) { return spacings > 2.5 ? 5 : spacings > 1.0 ? 3 : spacings > 0.3 ? 2 : 1; }
+
+Real azimuth_point(int p, int points) {
+  return points == 1 ? 0.0 : cos(PI * (Real(p) + 0.5) / Real(points));
+}
+
+// What the value at a point adds to the coefficients of a series in T_0, T_1 and T_2.
+Vec3 chebyshev_shares(Real point, int points) {
+  Real mean = 1.0 / Real(points);
+  Real bend = points > 2 ? 2.0 * mean * (2.0 * point * point - 1.0) : 0.0;
+  return Vec3(mean, 2.0 * mean * point, bend);
+}
+
+// That series at x.
+Vec4 chebyshev_sum(Vec4 mean, Vec4 slope, Vec4 bend, Real x) {
+  return mean + slope * x + bend * (2.0 * x * x - 1.0);
+}
+
+// Weight of the value at a point in the polynomial through all of them, at x.
+Real chebyshev_weight(Real point, int points, Real x) {
+  Real weight = 1.0;
+  Vec2 before = Vec2(1.0, 1.0);
+  Vec2 term = Vec2(point, x);
+  for (int q = 1; q < points; ++q) {
+    weight += 2.0 * term.x * term.y;
+    Vec2 next = 2.0 * Vec2(point, x) * term - before;
+    before = term;
+    term = next;
+  }
+  return weight / Real(points);
 }
 
 // --- Tables -------------------------------------------------------------------------------------------

@@ -4,10 +4,16 @@
 
 layout(constant_id = 10) const int DEGREE = 4;           // of the moments, L
 layout(constant_id = 11) const bool PARTICLES = true;    // Rayleigh's function has no odd terms
+layout(constant_id = 12) const int AZIMUTHS = 6;         // of a ray in half a turn
 const int TERMS = 2 * DEGREE + 3;                        // of a particle's phase in order one
 const int SLOTS = (DEGREE + 1) * (DEGREE + 2) / 2 + 1;   // the last one is the aureole's
 const int AUREOLE = SLOTS - 1;
-const int ROW_SLOTS = DEGREE + 2;                        // of a row, and of a ray's light
+const int SERIES = DEGREE + 1;                           // terms in azimuth
+const int LIGHT_SLOTS = SERIES + 1;                      // of a ray's light: they and the aureole's
+// Ratios of moments are packed as halves, those of two slots in one load: on software devices loads are most
+// of the work, and a ratio's rounding is a part in 4000 of its own term.
+const int ROW_SLOTS = (SERIES + 1) / 2 + 1;              // terms of a row in pairs, and the logarithm
+const int ORDER_SLOTS = (SLOTS - 1) / 2 + 1;             // the logarithm, then ratios 1, 2, ... in pairs
 
 #include "methods/moments.glsl"
 
@@ -17,17 +23,18 @@ layout(std430, binding = OWN) restrict readonly buffer PhaseSeriesBuffer { Vec4 
 layout(std430, binding = OWN + 1) restrict buffer RayBuffer { Vec4 ray_data[]; };
 layout(std430, binding = OWN + 2) restrict buffer LightBuffer { Vec4 light[]; };
 layout(std430, binding = OWN + 3) restrict buffer MomentBuffer { Vec4 moments[]; };
-layout(std430, binding = OWN + 4) restrict buffer RowBuffer { Vec4 rows[]; };
+layout(std430, binding = OWN + 4) restrict buffer RowBuffer { uvec4 rows[]; };
+layout(std430, binding = OWN + 5) restrict buffer OrderBuffer { uvec4 fine_order[]; };
 
 layout(push_constant) uniform Push {
   MomentGrid grid;
   int fine_altitudes;  // of the table that rays read
   int up, down;        // directions above and below the horizon
-  int azimuths;        // in half a turn
   int steps;           // nodes of a ray
   int first_steps;     // of order one, on each lit part
   int first, end;      // invocations of this dispatch
-  int first_azimuth, end_azimuth;  // of order one in this dispatch
+  int each_azimuth;    // whether order one is traced at each azimuth, or at a few that stand for all
+  int first_azimuth, end_azimuth;  // of order one in this dispatch, where it is each
   int first_altitude;              // of the rows there are now
   int tail;            // whether all orders after the last are added
 } push;
@@ -50,18 +57,20 @@ int ground_at(int i, int j) {
 
 // Light of a ray under the sun s: its azimuthal terms m = 0 to L, then its aureole.
 int light_at(int i, int j, int s) {
-  return ((i * RAYS + j) * push.grid.suns + s) * ROW_SLOTS * GROUPS;
+  return ((i * RAYS + j) * push.grid.suns + s) * LIGHT_SLOTS * GROUPS;
 }
 
 // Tables: of one order, the sum of all, the logarithms of the lowest moment of the order before, and the
-// first again with more altitudes. Behind the moments of each lies the ground's diffuse irradiance.
+// sum again with more altitudes. Behind the moments of each lies the ground's diffuse irradiance.
 int table_size(int altitudes) { return (altitudes * SLOTS + 1) * push.grid.suns * GROUPS; }
 int sum_table() { return table_size(push.grid.altitudes); }
 int before_table() { return 2 * table_size(push.grid.altitudes); }
-int fine_table() { return before_table() + (push.grid.altitudes + 1) * push.grid.suns * GROUPS; }
 int before_at(int i, int s) { return before_table() + (i * push.grid.suns + s) * GROUPS; }
 int moment_at(int i, int s, int slot) { return ((i * push.grid.suns + s) * SLOTS + slot) * GROUPS; }
 int irradiance_at(int altitudes, int s) { return altitudes * push.grid.suns * SLOTS * GROUPS + s * GROUPS; }
+
+// One order with more altitudes.
+int order_at(int fine, int s) { return (fine * push.grid.suns + s) * ORDER_SLOTS * GROUPS; }
 
 // What a node k of a ray sees under the sun s: azimuthal terms of its source over the lowest moment,
 // and that moment's logarithm.
@@ -90,4 +99,10 @@ TableRay table_ray(int i, int j) {
   return ray;
 }
 
-Real table_azimuth(int a) { return PI * (Real(a) + 0.5) / Real(push.azimuths); }
+Real table_azimuth(int a) { return PI * (Real(a) + 0.5) / Real(AZIMUTHS); }
+
+uvec4 pack_pair(Vec4 first, Vec4 second) {
+  return uvec4(packHalf2x16(first.xy), packHalf2x16(first.zw), packHalf2x16(second.xy), packHalf2x16(second.zw));
+}
+Vec4 first_of(uvec4 pair) { return Vec4(unpackHalf2x16(pair.x), unpackHalf2x16(pair.y)); }
+Vec4 second_of(uvec4 pair) { return Vec4(unpackHalf2x16(pair.z), unpackHalf2x16(pair.w)); }

@@ -2,6 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "methods/moments_device.glsl"
 
+const int GROUND_PART = MEDIA_GROUPS_SIZE;
+const int PARTS = MEDIA_GROUPS_SIZE + GROUPS;  // of a ray's light: by constituent, and the ground's
+const int LIGHT_SIZE = LIGHT_SLOTS * GROUPS;
+
 Real view_share[MEDIA_SIZE];
 
 // A peaked phase function as a series that the tables' few directions can integrate.
@@ -14,7 +18,7 @@ void series_towards(ScatteringAngle angle, OUT_ARRAY(Vec4, scattering_phase, MED
       if (kind > PHASE_RAYLEIGH) {
         Real before = 0.0;
         Real p = 1.0;
-        for (int l = 0; l < TERMS; ++l) {
+        UNROLL for (int l = 0; l < TERMS; ++l) {
           phase = phase + series(c, l, g) * p;
           Real next = (Real(2 * l + 1) * angle.cosine * p - Real(l) * before) / Real(l + 1);
           before = p;
@@ -35,17 +39,14 @@ void add_columns(TableRay ray, Cuts cuts, Real from, Real to, INOUT_ARRAY(Real, 
   }
 }
 
-// Adds what a lit part of the ray scatters towards its start, by a Gauss rule. `column` is that up to `from_km`, and in the end up to `to_km`.
+// What a lit part of the ray sends to its start, by a Gauss rule, the phase functions left out where the
+// light is parallel: they are the same all along it. `column` is that up to `from_km`, and in the end up to
+// `to_km`.
 void add_lit_part(TableRay ray, Path path, Real from_km, Real to_km, INOUT_ARRAY(Real, column, MEDIA_SIZE),
-                  INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
+                  INOUT_ARRAY(Vec4, parts, PARTS)) {
   Cuts cuts = part_of(cuts_of(ray.altitude_km, ray.mu, ray.length_km), from_km, to_km);
   Real density[MEDIA_SIZE];
   Real together[MEDIA_SIZE];
-  Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
-  if (!NEAR_SUN) {
-    series_towards(scattering_angle(sun_ray(path.start, Vec3(0.0)).direction, path.direction),
-                   scattering_phase);
-  }
   Real last = 0.0;
   for (int k = 0; k < push.first_steps; ++k) {
     Vec2 rule = gauss_node(push.first_steps, k);
@@ -59,14 +60,37 @@ void add_lit_part(TableRay ray, Path path, Real from_km, Real to_km, INOUT_ARRAY
     densities(h, density);
     columns_to_top(h, mu_sun, together);
     UNROLL for (int c = 0; c < MEDIA; ++c) together[c] += view_share[c] * column[c];
-    if (NEAR_SUN) series_towards(scattering_angle(sun.direction, path.direction), scattering_phase);
-    add_scattered(together, density, scattering_phase, node.width_km * sun.irradiance, 0, inscatter);
+    Vec4 phase[MEDIA_GROUPS_SIZE];
+    if (NEAR_SUN) series_towards(scattering_angle(sun.direction, path.direction), phase);
+    UNROLL for (int g = 0; g < GROUPS; ++g) {
+      Vec4 here = transmittance_of(together, g) * (node.width_km * sun.irradiance);
+      UNROLL for (int c = 0; c < MEDIA; ++c) {
+        Vec4 sent = here * density[c];
+        if (NEAR_SUN) sent = sent * phase[c * GROUPS + g];
+        parts[c * GROUPS + g] = parts[c * GROUPS + g] + sent;
+      }
+    }
   }
   add_columns(ray, cuts, last, 1.0, column);
 }
 
-// Light of order one that comes down a ray.
-void trace_first(TableRay ray, Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
+// Radiance of the sunlit ground at the ray's end, as it is seen from its start.
+void add_sunlit_ground(int i, int j, Path path, INOUT_ARRAY(Vec4, parts, PARTS)) {
+  Vec3 position = path.start + path.direction * path.length_km;
+  SunRay sun = sun_ray(position, Vec3(0.0));
+  Real mu_sun = dot(position, sun.direction) / length(position);
+  if (mu_sun <= 0.0) return;
+  Real column[MEDIA_SIZE];
+  columns_to_top(0.0, mu_sun, column);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    parts[GROUND_PART + g] =
+        ray_data[ground_at(i, j) + g] * transmittance_of(column, g) * (mu_sun * sun.irradiance);
+  }
+}
+
+// What the whole ray sends to its start.
+void trace_first(int i, int j, TableRay ray, Path path, OUT_ARRAY(Vec4, parts, PARTS)) {
+  UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = Vec4(0.0);
   Shadow shadow = shadow_on(path, light_of_sun(0), 0.0);
   Real column[MEDIA_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
@@ -76,13 +100,85 @@ void trace_first(TableRay ray, Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SI
     Real to_km = dark && part == 0 ? shadow.enter_km : ray.length_km;
     if (part == 1 && !dark || to_km - from_km <= 1e-6 * ray.length_km) continue;
     if (part == 1) columns_along(ray.altitude_km, ray.mu, from_km, column);
-    add_lit_part(ray, path, from_km, to_km, column, inscatter);
+    add_lit_part(ray, path, from_km, to_km, column, parts);
+  }
+  if (ray.down) add_sunlit_ground(i, j, path, parts);
+}
+
+Path path_towards(TableRay ray, Real cosine) {
+  Path path;
+  path.start = Vec3(0.0, 0.0, scene.planet_radius_km + ray.altitude_km);
+  path.altitude_km = ray.altitude_km;
+  path.mu = ray.mu;
+  path.length_km = ray.length_km;
+  path.meets_ground = ray.down;
+  Real sine = sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
+  path.direction = Vec3(sine * cosine, sine * sqrt(1.0 - cosine * cosine), ray.mu);
+  return path;
+}
+
+// Azimuths whose light stands for that of all.
+int points_for(TableRay ray, Real mu_s) {
+  Real altitude = ray.down ? 0.0 : scene.thickness_km;
+  SunRange range = sun_range(push.grid, altitude);
+  Real sines = sqrt(max((1.0 - ray.mu * ray.mu) * (1.0 - mu_s * mu_s), 0.0));
+  Real end = ray.mu * mu_s;
+  Real near = node_of_sun(push.grid, range,
+                          axis_after(ray.altitude_km, mu_s, end - sines, ray.length_km, altitude));
+  Real far = node_of_sun(push.grid, range,
+                         axis_after(ray.altitude_km, mu_s, end + sines, ray.length_km, altitude));
+  return azimuth_points(far - near);
+}
+
+void add_azimuth(Vec3 axis, Path path, ARRAY(Vec4, parts, PARTS), INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
+  Vec4 phase[MEDIA_GROUPS_SIZE];
+  if (!NEAR_SUN) series_towards(scattering_angle(axis, path.direction), phase);
+  Real nu = dot(axis, path.direction);
+  Real c[MOST_DEGREE + 1];
+  azimuth_terms(path.mu, axis.z, nu, DEGREE, c);
+  Real p[MOST_TERMS];
+  legendre_polynomials(nu, DEGREE + 1, p);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    Vec4 radiance = parts[GROUND_PART + g];
+    UNROLL for (int m = 0; m < MEDIA; ++m) {
+      Vec4 scattered = parts[m * GROUPS + g];
+      if (!NEAR_SUN) scattered = scattered * phase[m * GROUPS + g];
+      radiance = radiance + scattered;
+    }
+    UNROLL for (int m = 0; m <= DEGREE; ++m) terms[m * GROUPS + g] = terms[m * GROUPS + g] + radiance * c[m];
+    terms[(DEGREE + 1) * GROUPS + g] = terms[(DEGREE + 1) * GROUPS + g] + radiance * p[DEGREE + 1];
   }
 }
 
-// Radiance of the sunlit ground at the ray's end, as it is seen from its start.
-Vec4 sunlit_ground(int i, int j, int g, ARRAY(Real, column, MEDIA_SIZE), Real irradiance) {
-  return ray_data[ground_at(i, j) + g] * transmittance_of(column, g) * irradiance;
+// Traces one to three azimuths, and has the light of all of them: but for the phase functions it changes
+// little.
+void add_all_azimuths(int i, int j, TableRay ray, Vec3 axis, INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
+  Vec4 mean[PARTS];
+  Vec4 slope[PARTS];
+  Vec4 bend[PARTS];
+  UNROLL for (int n = 0; n < PARTS; ++n) {
+    mean[n] = Vec4(0.0);
+    slope[n] = Vec4(0.0);
+    bend[n] = Vec4(0.0);
+  }
+  int points = points_for(ray, axis.z);
+  for (int p = 0; p < points; ++p) {
+    Real x = azimuth_point(p, points);
+    Vec3 share = chebyshev_shares(x, points);
+    Vec4 parts[PARTS];
+    trace_first(i, j, ray, path_towards(ray, x), parts);
+    UNROLL for (int n = 0; n < PARTS; ++n) {
+      mean[n] = mean[n] + parts[n] * share.x;
+      slope[n] = slope[n] + parts[n] * share.y;
+      bend[n] = bend[n] + parts[n] * share.z;
+    }
+  }
+  for (int a = 0; a < AZIMUTHS; ++a) {
+    Real x = cos(table_azimuth(a));
+    Vec4 parts[PARTS];
+    UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = chebyshev_sum(mean[n], slope[n], bend[n], x);
+    add_azimuth(axis, path_towards(ray, x), parts, terms);
+  }
 }
 
 // Light of order one, and of the sunlit ground, that comes down the rays: one invocation a ray and a sun.
@@ -101,47 +197,20 @@ void main() {
   scene.sun_direction = Vec4(axis, 0.0);
   scene.sun_position = Vec4(axis * scene.sun_distance_km, 0.0);
 
-  Vec4 terms[ROW_SLOTS * GROUPS];
+  Vec4 terms[LIGHT_SIZE];
   int at = light_at(i, j, s);
-  UNROLL for (int n = 0; n < ROW_SLOTS * GROUPS; ++n) {
+  UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) {
     terms[n] = push.first_azimuth > 0 ? light[at + n] : Vec4(0.0);
   }
-  Path path;
-  path.start = Vec3(0.0, 0.0, scene.planet_radius_km + ray.altitude_km);
-  path.altitude_km = ray.altitude_km;
-  path.mu = ray.mu;
-  path.length_km = ray.length_km;
-  path.meets_ground = ray.down;
-  for (int a = push.first_azimuth; a < push.end_azimuth; ++a) {
-    Real azimuth = table_azimuth(a);
-    Real sine = sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
-    path.direction = Vec3(sine * cos(azimuth), sine * sin(azimuth), ray.mu);
-    Vec4 inscatter[GROUPS];
-    UNROLL for (int g = 0; g < GROUPS; ++g) inscatter[g] = Vec4(0.0);
-    trace_first(ray, path, inscatter);
-    if (ray.down) {
-      Vec3 position = path.start + path.direction * ray.length_km;
-      SunRay sun = sun_ray(position, Vec3(0.0));
-      Real mu_sun = dot(position, sun.direction) / length(position);
-      Real column[MEDIA_SIZE];
-      if (mu_sun > 0.0) {
-        columns_to_top(0.0, mu_sun, column);
-        UNROLL for (int g = 0; g < GROUPS; ++g) {
-          inscatter[g] = inscatter[g] + sunlit_ground(i, j, g, column, mu_sun * sun.irradiance);
-        }
-      }
+  if (push.each_azimuth != 0) {
+    for (int a = push.first_azimuth; a < push.end_azimuth; ++a) {
+      Path path = path_towards(ray, cos(table_azimuth(a)));
+      Vec4 parts[PARTS];
+      trace_first(i, j, ray, path, parts);
+      add_azimuth(axis, path, parts, terms);
     }
-
-    Real nu = dot(axis, path.direction);
-    Real c[MOST_DEGREE + 1];
-    azimuth_terms(ray.mu, mu_s, nu, DEGREE, c);
-    Real p[MOST_TERMS];
-    legendre_polynomials(nu, DEGREE + 1, p);
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      Vec4 radiance = inscatter[g];
-      UNROLL for (int m = 0; m <= DEGREE; ++m) terms[m * GROUPS + g] = terms[m * GROUPS + g] + radiance * c[m];
-      terms[(DEGREE + 1) * GROUPS + g] = terms[(DEGREE + 1) * GROUPS + g] + radiance * p[DEGREE + 1];
-    }
+  } else {
+    add_all_azimuths(i, j, ray, axis, terms);
   }
-  UNROLL for (int n = 0; n < ROW_SLOTS * GROUPS; ++n) light[at + n] = terms[n];
+  UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) light[at + n] = terms[n];
 }

@@ -3,6 +3,102 @@
 #include "methods/moments_device.glsl"
 
 // Light of the next order that comes down the rays: one invocation a ray, a sun and a group.
+
+// A ray under a sun.
+struct Beam {
+  TableRay ray;
+  Real mu_s;
+  Real nu;     // cosine to the axis a quarter of a turn from it
+  Real sines;
+};
+
+Real nu_at(Beam beam, Real x) { return beam.nu + beam.sines * x; }
+
+// Cosine of the axis' zenith angle at a distance and an altitude.
+Real axis_at(Beam beam, Real x, Vec4 place) {
+  return axis_after(beam.ray.altitude_km, beam.mu_s, nu_at(beam, x), place.z, place.x);
+}
+
+Real node_of_axis(Real axis, Vec4 suns) {
+  return max((inverse_sinh((axis + suns.x) / push.grid.sun_width) - suns.y) * suns.z, 0.0);
+}
+
+// What a node sends, as a series in azimuth, from its rows about the sun's node `at`.
+void sent(int row, Real at, OUT_ARRAY(Vec4, term, SERIES)) {
+  CubicTaps taps = cubic_taps(at, push.grid.suns);
+  Vec4 logarithm[4];
+  UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = Vec4(0.0);
+  UNROLL for (int tap = 0; tap < 4; ++tap) {
+    int own = row + (taps.first + tap) * ROW_SLOTS * GROUPS;
+    UNROLL for (int m = 0; m <= DEGREE; m += 2) {
+      uvec4 pair = rows[own + m / 2 * GROUPS];
+      term[m] = term[m] + first_of(pair) * taps.weights[tap];
+      if (m < DEGREE) term[min(m + 1, DEGREE)] = term[min(m + 1, DEGREE)] + second_of(pair) * taps.weights[tap];
+    }
+    logarithm[tap] = uintBitsToFloat(rows[own + (ROW_SLOTS - 1) * GROUPS]);
+  }
+  Vec4 light = exp(limited_sum(logarithm, taps));
+  UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = term[m] * light;
+}
+
+Vec4 towards(Beam beam, Real x, Vec4 place, ARRAY(Vec4, term, SERIES)) {
+  Real c[MOST_DEGREE + 1];
+  azimuth_terms(place.y, axis_at(beam, x, place), nu_at(beam, x), DEGREE, c);
+  Vec4 sum = Vec4(0.0);
+  UNROLL for (int m = 0; m <= DEGREE; ++m) sum = sum + term[m] * c[m];
+  return sum;
+}
+
+// A node's light at all azimuths from a few.
+void add_from_few(Beam beam, Vec4 place, Vec4 suns, int row, int points,
+                  INOUT_ARRAY(Vec4, radiance, AZIMUTHS)) {
+  Vec4 mean[SERIES];
+  Vec4 slope[SERIES];
+  Vec4 bend[SERIES];
+  UNROLL for (int m = 0; m <= DEGREE; ++m) {
+    mean[m] = Vec4(0.0);
+    slope[m] = Vec4(0.0);
+    bend[m] = Vec4(0.0);
+  }
+  for (int p = 0; p < points; ++p) {
+    Real x = azimuth_point(p, points);
+    Vec3 share = chebyshev_shares(x, points);
+    Vec4 term[SERIES];
+    sent(row, node_of_axis(axis_at(beam, x, place), suns), term);
+    UNROLL for (int m = 0; m <= DEGREE; ++m) {
+      mean[m] = mean[m] + term[m] * share.x;
+      slope[m] = slope[m] + term[m] * share.y;
+      bend[m] = bend[m] + term[m] * share.z;
+    }
+  }
+  UNROLL for (int a = 0; a < AZIMUTHS; ++a) {
+    Real x = cos(table_azimuth(a));
+    Vec4 term[SERIES];
+    UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = chebyshev_sum(mean[m], slope[m], bend[m], x);
+    radiance[a] = radiance[a] + towards(beam, x, place, term);
+  }
+}
+
+void add_azimuth(Beam beam, Real x, Vec4 radiance, INOUT_ARRAY(Vec4, terms, LIGHT_SLOTS)) {
+  Real nu = nu_at(beam, x);
+  Real c[MOST_DEGREE + 1];
+  azimuth_terms(beam.ray.mu, beam.mu_s, nu, DEGREE, c);
+  Real p[MOST_TERMS];
+  legendre_polynomials(nu, DEGREE + 1, p);
+  UNROLL for (int m = 0; m <= DEGREE; ++m) terms[m] = terms[m] + radiance * c[m];
+  terms[DEGREE + 1] = terms[DEGREE + 1] + radiance * p[SERIES];
+}
+
+// Diffuse irradiance of the ground at the ray's end.
+Vec4 irradiance_of(Beam beam, Real x, int g) {
+  Real axis = axis_after(beam.ray.altitude_km, beam.mu_s, nu_at(beam, x), beam.ray.length_km, 0.0);
+  CubicTaps taps = cubic_taps(node_of_sun(push.grid, sun_range(push.grid, 0.0), axis), push.grid.suns);
+  int own = irradiance_at(push.grid.altitudes, taps.first) + g;
+  Vec4 logarithm[4];
+  UNROLL for (int tap = 0; tap < 4; ++tap) logarithm[tap] = moments[own + tap * GROUPS];
+  return exp(limited_sum(logarithm, taps));
+}
+
 void main() {
   int index = push.first + int(gl_GlobalInvocationID.x);
   if (index >= push.end) return;
@@ -11,53 +107,32 @@ void main() {
   int s = index / GROUPS % push.grid.suns;
   int j = index / GROUPS / push.grid.suns % RAYS;
   int i = push.first_altitude + index / GROUPS / push.grid.suns / RAYS;
-  TableRay ray = table_ray(i, j);
-  Real mu_s = sun_of_node(push.grid, sun_range(push.grid, ray.altitude_km), Real(s));
-  SunRange on_ground = sun_range(push.grid, 0.0);
-  Vec4 reflected = ray_data[ground_at(i, j) + g];
-  int own = irradiance_at(push.grid.altitudes, 0) + g;
-  int row_step = ROW_SLOTS * GROUPS;
-  Real sines = sqrt(max((1.0 - ray.mu * ray.mu) * (1.0 - mu_s * mu_s), 0.0));
+  Beam beam;
+  beam.ray = table_ray(i, j);
+  beam.mu_s = sun_of_node(push.grid, sun_range(push.grid, beam.ray.altitude_km), Real(s));
+  beam.nu = beam.ray.mu * beam.mu_s;
+  beam.sines = sqrt(max((1.0 - beam.ray.mu * beam.ray.mu) * (1.0 - beam.mu_s * beam.mu_s), 0.0));
 
-  Vec4 terms[ROW_SLOTS];
-  UNROLL for (int n = 0; n < ROW_SLOTS; ++n) terms[n] = Vec4(0.0);
-  for (int a = 0; a < push.azimuths; ++a) {
-    Real nu = ray.mu * mu_s + sines * cos(table_azimuth(a));
-    Vec4 radiance = Vec4(0.0);
-    for (int k = 0; k < push.steps; ++k) {
-      int node = node_at(i, j, k);
-      Vec4 place = ray_data[node];
-      Vec4 suns = ray_data[node + 1];
-      Real here = axis_after(ray.altitude_km, mu_s, nu, place.z, place.x);
-      Real u = inverse_sinh((here + suns.x) / push.grid.sun_width);
-      CubicTaps taps = cubic_taps(max((u - suns.y) * suns.z, 0.0), push.grid.suns);
-      Real c[MOST_DEGREE + 1];
-      azimuth_terms(place.y, here, nu, DEGREE, c);
-      int row = row_at(i, j, k, taps.first) + g;
-      Vec4 ratio[4];
-      Vec4 logarithm[4];
-      UNROLL for (int tap = 0; tap < 4; ++tap) {
-        ratio[tap] = Vec4(0.0);
-        UNROLL for (int m = 0; m <= DEGREE; ++m) ratio[tap] = ratio[tap] + rows[row + m * GROUPS] * c[m];
-        logarithm[tap] = rows[row + (DEGREE + 1) * GROUPS];
-        row += row_step;
-      }
-      radiance = radiance + cubic_sum(ratio, taps) * exp(limited_sum(logarithm, taps));
-    }
-    if (ray.down) {
-      Real here = axis_after(ray.altitude_km, mu_s, nu, ray.length_km, 0.0);
-      CubicTaps taps = cubic_taps(node_of_sun(push.grid, on_ground, here), push.grid.suns);
-      Vec4 logarithm[4];
-      UNROLL for (int tap = 0; tap < 4; ++tap) logarithm[tap] = moments[own + (taps.first + tap) * GROUPS];
-      radiance = radiance + reflected * exp(limited_sum(logarithm, taps));
-    }
-    Real c[MOST_DEGREE + 1];
-    azimuth_terms(ray.mu, mu_s, nu, DEGREE, c);
-    Real p[MOST_TERMS];
-    legendre_polynomials(nu, DEGREE + 1, p);
-    UNROLL for (int m = 0; m <= DEGREE; ++m) terms[m] = terms[m] + radiance * c[m];
-    terms[DEGREE + 1] = terms[DEGREE + 1] + radiance * p[DEGREE + 1];
+  Vec4 radiance[AZIMUTHS];
+  UNROLL for (int a = 0; a < AZIMUTHS; ++a) radiance[a] = Vec4(0.0);
+  for (int k = 0; k < push.steps; ++k) {
+    int node = node_at(i, j, k);
+    Vec4 place = ray_data[node];
+    Vec4 suns = ray_data[node + 1];
+    Real spacings = abs(node_of_axis(axis_at(beam, 1.0, place), suns) -
+                     node_of_axis(axis_at(beam, -1.0, place), suns));
+    add_from_few(beam, place, suns, row_at(i, j, k, 0) + g, azimuth_points(spacings), radiance);
+  }
+
+  Vec4 reflected = ray_data[ground_at(i, j) + g];
+  Vec4 terms[LIGHT_SLOTS];
+  UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) terms[n] = Vec4(0.0);
+  UNROLL for (int a = 0; a < AZIMUTHS; ++a) {
+    Real x = cos(table_azimuth(a));
+    Vec4 light = radiance[a];
+    if (beam.ray.down) light = light + reflected * irradiance_of(beam, x, g);
+    add_azimuth(beam, x, light, terms);
   }
   int at = light_at(i, j, s) + g;
-  UNROLL for (int n = 0; n < ROW_SLOTS; ++n) light[at + n * GROUPS] = terms[n];
+  UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) light[at + n * GROUPS] = terms[n];
 }

@@ -36,14 +36,15 @@ void main() {
   for (int j = 0; j < RAYS; ++j) {
     TableRay ray = table_ray(i, j);
     mu_s = sun_of_node(push.grid, sun_range(push.grid, ray.altitude_km), Real(s));
-    Real weight = ray.weight * 2.0 * PI / Real(push.azimuths);
+    Real weight = ray.weight * 2.0 * PI / Real(AZIMUTHS);
     Real p[MOST_MOMENTS];
     zenith_polynomials(ray.mu, DEGREE, p);
     int at = light_at(i, j, s) + g;
     UNROLL for (int m = 0; m <= DEGREE; ++m) {
       Vec4 term = light[at + m * GROUPS] * weight;
       if (m == 0 && !ray.down) irradiance = irradiance + term * ray.mu;
-      UNROLL for (int l = m; l <= DEGREE; ++l) {
+      UNROLL for (int l = 0; l <= DEGREE; ++l) {
+        if (l < m) continue;
         moment[moment_index(l, m)] = moment[moment_index(l, m)] + term * p[moment_index(l, m)];
       }
     }
@@ -52,7 +53,8 @@ void main() {
   Real square = 1.0 - mu_s * mu_s;
   Real power = 1.0;
   UNROLL for (int m = 0; m <= DEGREE; ++m) {
-    UNROLL for (int l = m; l <= DEGREE; ++l) {
+    UNROLL for (int l = 0; l <= DEGREE; ++l) {
+      if (l < m) continue;
       moment[moment_index(l, m)] = moment[moment_index(l, m)] * (harmonic_norm(l, m) / power);
     }
     power *= square;

@@ -16,23 +16,37 @@ void main() {
   Vec4 place = ray_data[node];
   int low = min(int(place.w), push.fine_altitudes - 2);
   Real x = place.w - Real(low);
-  int below = fine_table() + moment_at(low, s, 0) + g;
-  int above = fine_table() + moment_at(low + 1, s, 0) + g;
+  int below = order_at(low, s) + g;
+  int above = order_at(low + 1, s) + g;
+  int nearest = x < 0.5 ? below : above;
+
   Real p[MOST_MOMENTS];
   zenith_polynomials(place.y, DEGREE, p);
-  Vec4 term[DEGREE + 1];
-  UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = Vec4(0.0);
+  Vec4 term[SERIES + 1];
+  UNROLL for (int m = 0; m <= SERIES; ++m) term[m] = Vec4(0.0);
+  uvec4 pair = uvec4(0u);
   UNROLL for (int l = 0; l <= DEGREE; ++l) {
     if (!PARTICLES && l % 2 == 1) continue;
     Vec4 scattered = ray_data[node + 2 + l * GROUPS + g];
-    UNROLL for (int m = 0; m <= l; ++m) {
+    UNROLL for (int m = 0; m <= DEGREE; ++m) {
+      if (m > l) continue;
       int n = moment_index(l, m);
       Vec4 ratio = Vec4(1.0);
-      if (n > 0) ratio = mix(moments[below + n * GROUPS], moments[above + n * GROUPS], x);
+      if (n > 0) {
+        if (n % 2 == 1 || m == 0) pair = fine_order[nearest + (n + 1) / 2 * GROUPS];
+        ratio = n % 2 == 1 ? first_of(pair) : second_of(pair);
+      }
       term[m] = term[m] + scattered * ratio * p[n];
     }
   }
+  Vec4 logarithm = mix(uintBitsToFloat(fine_order[below]), uintBitsToFloat(fine_order[above]), x);
+
+  // Packed over the even part of what the node scatters, which is kept with the logarithm: the same under
+  // every sun.
+  Vec4 even = max(ray_data[node + 2 + g], Vec4(1e-30));
   int at = row_at(i, j, k, s) + g;
-  UNROLL for (int m = 0; m <= DEGREE; ++m) rows[at + m * GROUPS] = term[m];
-  rows[at + (DEGREE + 1) * GROUPS] = mix(moments[below], moments[above], x);
+  UNROLL for (int pair = 0; pair < ROW_SLOTS - 1; ++pair) {
+    rows[at + pair * GROUPS] = pack_pair(term[2 * pair] / even, term[2 * pair + 1] / even);
+  }
+  rows[at + (ROW_SLOTS - 1) * GROUPS] = floatBitsToUint(logarithm + log(even));
 }

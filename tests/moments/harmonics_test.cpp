@@ -200,5 +200,37 @@ TEST(MomentInterpolation, IsExactForCubicsAndKeepsToTheRangeOfACliff) {
   }
 }
 
+TEST(MomentAzimuths, HaveASeriesThatIsExactForWhatTheirPointsTellApart) {
+  P p;
+  for (int points : {1, 2, 3, 5}) {
+    auto f = [&](double x) {
+      return points == 1 ? 3 : points == 2 ? 3 - x : 3 - x + 4 * x * x;
+    };
+    glm::dvec3 series(0);
+    for (int i = 0; i < points; ++i) {
+      double x = p.azimuth_point(i, points);
+      series += f(x) * p.chebyshev_shares(x, points);
+    }
+    auto v = [&](int i) { return glm::dvec4(series[i]); };
+    for (double x : {-1.0, -0.3, 0.8}) {
+      EXPECT_NEAR(p.chebyshev_sum(v(0), v(1), v(2), x).x, f(x), 1e-12) << points;
+    }
+  }
+}
+
+TEST(MomentAzimuths, InterpolateWithWeightsOfThePolynomialThroughAllPoints) {
+  P p;
+  for (int points = 1; points <= 8; ++points) {
+    for (double x : {-1.0, -0.35, 0.6}) {
+      double sum = 0;
+      for (int i = 0; i < points; ++i) {
+        double point = p.azimuth_point(i, points);
+        sum += std::pow(point, points - 1) * p.chebyshev_weight(point, points, x);
+      }
+      EXPECT_NEAR(sum, std::pow(x, points - 1), 1e-12) << points;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cyanometer

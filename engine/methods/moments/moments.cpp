@@ -10,6 +10,7 @@
 #include "spirv/moments.spv.h"
 #include "spirv/moments_add.spv.h"
 #include "spirv/moments_sky.spv.h"
+#include "spirv/moments_sky_rays.spv.h"
 
 namespace cyanometer {
 namespace {
@@ -19,6 +20,8 @@ struct SkyPush {
   MomentTables::Grid grid;
   std::int32_t fine_altitudes, fine_suns, elevations, azimuths, steps, first, end;
 };
+/// Its SKY_POINTS.
+constexpr int sky_points = 8;
 /// shaders/methods/moments.comp
 struct PixelPush {
   MomentTables::Grid grid;
@@ -97,7 +100,8 @@ class Moments final : public Method {
  public:
   explicit Moments(vulkan::Device& device)
       : solver_(device),
-        sky_(device, moments_sky_spirv, UploadedScene::bindings + 3, sizeof(SkyPush)),
+        sky_rays_(device, moments_sky_rays_spirv, UploadedScene::bindings + 4, sizeof(SkyPush)),
+        sky_(device, moments_sky_spirv, UploadedScene::bindings + 4, sizeof(SkyPush)),
         pixel_(device, moments_spirv, UploadedScene::bindings + 5, sizeof(PixelPush)),
         add_(device, moments_add_spirv, UploadedScene::bindings + 4, sizeof(AddPush)),
         first_order_tables_(device),
@@ -107,16 +111,14 @@ class Moments final : public Method {
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
-    constexpr double multiplications_in_one = 8;
     MomentSettings settings = settings_of(problem, options);
     double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
-    double gathered =
-        settings.altitudes * 1.5 * settings.directions * settings.suns * settings.azimuths;
-    double first_order = gathered * 2 * 6 * 12 * media;
-    double others = gathered * settings.orders * settings.steps * 4 * (settings.degree + 2) /
-                    multiplications_in_one;
+    double beams = settings.altitudes * 1.5 * settings.directions * settings.suns;
+    double first_order =
+        beams * (2 * (settings.steps + 1) * 12 * media + 30 * settings.azimuths);
+    double others = beams * settings.orders * settings.steps * 13 * (settings.degree + 2);
     double sky = 2 * options.at("sky_elevations") * options.at("sky_azimuths") *
-                 options.at("sky_steps") * 10 * media;
+                 options.at("sky_steps") * (40 + 2 * settings.degree);
     double marched = rays * problem.sun_disc_samples, pixels_read = 0;
     if (may_read_first_order(problem, options)) {
       constexpr double a_lookup = 30;
@@ -215,6 +217,12 @@ class Moments final : public Method {
     return key + tables_key;
   }
 
+  /// shaders/methods/moments_sky.glsl
+  static std::size_t sky_ray_bytes(const SkyPush& push, int degree, int groups) {
+    std::size_t nodes = std::size_t{2} * push.elevations * push.steps;
+    return 16 * nodes * (1 + sky_points * (degree + 2) * groups);
+  }
+
   std::shared_ptr<const Sky> make_sky(Tracer& tracer, const UploadedScene& scene,
                                       const MethodOptions& options,
                                       const MomentSettings& settings,
@@ -234,20 +242,29 @@ class Moments final : public Method {
                  option(options, "sky_steps"),
                  0,
                  0};
-    std::vector<vulkan::Binding> bindings =
-        scene.bind({tables.series, tables.moments, coarse.values});
+    vulkan::Buffer rays(tracer.device, sky_ray_bytes(push, settings.degree, groups),
+                        vulkan::Memory::device);
     vulkan::Specialization constants =
         moment_constants(scene, settings.degree, tables.particles);
+    bool each_azimuth = scene.problem().camera.altitude_km > scene.problem().thickness_km;
+    constants.push_back(each_azimuth);
     PacedWork work(tracer);
-    std::int64_t node =
-        10 * std::max(scene.media(), 1) + 2 * (settings.degree + 1) * (settings.degree + 2);
-    require_rounds(scene, rounds_of_a_piece(scene, push.steps));
-    work.run(2 * elevations * azimuths * groups, push.steps * node, [&](int first, int end) {
-      push.first = first;
-      push.end = end;
-      tracer.commands.dispatch(sky_, constants, bindings, vulkan::bytes_of(push),
-                               {vulkan::groups_for(end - first, 64)});
-    });
+    auto run = [&](const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each) {
+      std::vector<vulkan::Binding> bindings =
+          scene.bind({tables.series, tables.moments, rays, coarse.values});
+      work.run(count, evaluations_each, [&](int first, int end) {
+        push.first = first;
+        push.end = end;
+        tracer.commands.dispatch(kernel, constants, bindings, vulkan::bytes_of(push),
+                                 {vulkan::groups_for(end - first, 64)});
+      });
+    };
+    int media = std::max(scene.media(), 1), degree = settings.degree;
+    int a_node = 10 * media + 2 * (degree + 1) * (degree + 2);
+    if (!each_azimuth)
+      run(sky_rays_, 2 * elevations * push.steps * sky_points * groups, a_node);
+    run(sky_, 2 * elevations * azimuths * groups,
+        push.steps * (each_azimuth ? a_node : sky_points / 2 * (degree + 2)));
     int values = 2 * groups;
     solver_.refine(work, tracer, scene, coarse.values, between.values, 2,
                    {0, 0, elevations, fine_elevations, azimuths * values, 0});
@@ -303,7 +320,7 @@ class Moments final : public Method {
   }
 
   MomentSolver solver_;
-  vulkan::Kernel sky_, pixel_, add_;
+  vulkan::Kernel sky_rays_, sky_, pixel_, add_;
   hillaire::TableMaker first_order_tables_;
   hillaire::SkyTracer first_order_;
   std::optional<vulkan::Buffer> progress_;

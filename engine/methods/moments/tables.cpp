@@ -7,6 +7,7 @@
 #include "spirv/moments_close.spv.h"
 #include "spirv/moments_first.spv.h"
 #include "spirv/moments_next.spv.h"
+#include "spirv/moments_order.spv.h"
 #include "spirv/moments_project.spv.h"
 #include "spirv/moments_rays.spv.h"
 #include "spirv/moments_refine.spv.h"
@@ -20,7 +21,7 @@ using Grid = MomentTables::Grid;
 /// shaders/methods/moments_device.glsl
 struct Push {
   Grid grid;
-  std::int32_t fine_altitudes, up, down, azimuths, steps, first_steps, first, end,
+  std::int32_t fine_altitudes, up, down, steps, first_steps, first, end, each_azimuth,
       first_azimuth, end_azimuth, first_altitude, tail;
 };
 struct RefinePush {
@@ -39,6 +40,13 @@ int slots_of(int degree) { return (degree + 1) * (degree + 2) / 2 + 1; }
 
 constexpr std::size_t value_bytes = 16;
 
+vulkan::Specialization solution_constants(const UploadedScene& scene,
+                                          const MomentSettings& settings, bool particles) {
+  vulkan::Specialization constants = moment_constants(scene, settings.degree, particles);
+  constants.push_back(static_cast<std::uint32_t>(settings.azimuths));
+  return constants;
+}
+
 /// One solution: its sizes, its buffers, its passes.
 class Solution {
  public:
@@ -49,7 +57,7 @@ class Solution {
         settings_(settings),
         grid_(tables.grid),
         tables_(tables),
-        constants_(moment_constants(scene, settings.degree, series.particles)),
+        constants_(solution_constants(scene, settings, series.particles)),
         groups_(scene.groups()),
         up_(settings.directions),
         down_(std::max(settings.directions / 2, 3)),
@@ -60,12 +68,13 @@ class Solution {
         moments_(tracer.device, moment_values() * value_bytes, vulkan::Memory::device),
         rows_(tracer.device, rows_at_once_ * row_values() * value_bytes,
               vulkan::Memory::device),
+        order_(tracer.device, order_values() * value_bytes, vulkan::Memory::device),
         work_(tracer) {
     tracer.commands.fill(moments_, 0);
   }
 
   void trace_rays(const vulkan::Kernel& kernel) {
-    run(kernel, grid_.altitudes * rays() * (settings_.steps + 1), 16 * media(), push());
+    run(kernel, grid_.altitudes * rays() * (settings_.steps + 1), 40 * media(), push());
   }
 
   void trace_first_order(const vulkan::Kernel& kernel) {
@@ -73,27 +82,32 @@ class Solution {
     int series = (2 * settings_.degree + 3) * scene_.media() *
                  (scene_.problem().sun_distance_km > 0 ? first_steps() : 1);
     int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree;
-    int at_once = std::max(usual_loop_iterations / rounds, 1);
     require_rounds(scene_, rounds);
+    constexpr int most_points = Physics<float>::MOST_POINTS;
+    Push part = push();
+    // Under a near sun the scattering angle changes along a ray.
+    part.each_azimuth =
+        scene_.problem().sun_distance_km > 0 || most_points * rounds > usual_loop_iterations;
+    int at_once =
+        part.each_azimuth ? std::max(usual_loop_iterations / rounds, 1) : settings_.azimuths;
     for (int first = 0; first < settings_.azimuths; first += at_once) {
-      Push part = push();
       part.first_azimuth = first;
       part.end_azimuth = std::min(first + at_once, settings_.azimuths);
-      std::int64_t nodes = (part.end_azimuth - first) * 4 * first_steps() / 3;
-      run(kernel, grid_.altitudes * rays() * grid_.suns, nodes * 12 * media(), part);
+      int azimuths = part.each_azimuth ? part.end_azimuth - first : 2;
+      run(kernel, grid_.altitudes * rays() * grid_.suns,
+          std::int64_t{azimuths} * first_steps() * 12 * media() + 30 * settings_.azimuths,
+          part);
     }
   }
 
   void project(const vulkan::Kernel& kernel) {
-    run(kernel, grid_.altitudes * grid_.suns * groups_, 2 * rays() * settings_.degree, push());
+    run(kernel, grid_.altitudes * grid_.suns * groups_, 4 * rays() * (settings_.degree + 2),
+        push());
   }
 
-  void refine_altitudes(MomentSolver& solver, int table) {
-    solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
-                  {table, fine_table(), grid_.altitudes, finer_altitudes(grid_.altitudes),
-                   grid_.suns * slots() * groups_, 0});
+  void refine_order(const vulkan::Kernel& kernel) {
+    run(kernel, static_cast<int>(order_values()), 12, push());
   }
-  void refine_order(MomentSolver& solver) { refine_altitudes(solver, 0); }
 
   void trace_next_order(const vulkan::Kernel& rows, const vulkan::Kernel& next) {
     for (int first = 0; first < grid_.altitudes; first += rows_at_once_) {
@@ -101,8 +115,8 @@ class Solution {
       part.first_altitude = first;
       int altitudes = std::min(rows_at_once_, grid_.altitudes - first);
       int suns = altitudes * rays() * grid_.suns * groups_;
-      run(rows, suns * settings_.steps, 2 * slots(), part);
-      run(next, suns, settings_.azimuths * settings_.steps * 4 * (settings_.degree + 2), part);
+      run(rows, suns * settings_.steps, 5 * (settings_.degree + 2), part);
+      run(next, suns, 8 * settings_.steps * (settings_.degree + 2), part);
     }
   }
 
@@ -110,7 +124,9 @@ class Solution {
   void finish(const vulkan::Kernel& close, MomentSolver& solver) {
     run(close, (grid_.altitudes + 1) * grid_.suns * groups_, 2 * slots(), push());
     int sum = table_values(grid_.altitudes);
-    refine_altitudes(solver, sum);
+    solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
+                  {sum, fine_table(), grid_.altitudes, finer_altitudes(grid_.altitudes),
+                   grid_.suns * slots() * groups_, 0});
     solver.refine(work_, tracer_, scene_, moments_, tables_.moments, tables_.fine_altitudes,
                   {fine_table(), 0, grid_.suns, tables_.fine_suns, slots() * groups_, 0});
     solver.refine(work_, tracer_, scene_, moments_, tables_.moments, 1,
@@ -125,14 +141,17 @@ class Solution {
   int media() const { return std::max(scene_.media(), 1); }
   int slots() const { return slots_of(settings_.degree); }
   int rays() const { return up_ + down_; }
-  /// The light of the sun changes faster than what it causes.
   int first_steps() const {
-    return std::min(settings_.steps + 4, int{Physics<float>::MOST_GAUSS_NODES});
+    return std::min(settings_.steps + 3, int{Physics<float>::MOST_GAUSS_NODES});
   }
   // Sizes in values of four wavelengths, as shaders/methods/moments_device.glsl counts them.
   std::int64_t row_values() const {  // of one altitude
-    return std::int64_t{rays()} * settings_.steps * settings_.suns * (settings_.degree + 2) *
-           groups_;
+    return std::int64_t{rays()} * settings_.steps * settings_.suns *
+           ((settings_.degree + 2) / 2 + 1) * groups_;
+  }
+  std::int64_t order_values() const {
+    return std::int64_t{finer_altitudes(grid_.altitudes)} * settings_.suns *
+           ((slots() - 1) / 2 + 1) * groups_;
   }
   std::int64_t ray_values() const {
     std::int64_t node = 2 + (settings_.degree + 1) * groups_;
@@ -157,9 +176,9 @@ class Solution {
             finer_altitudes(grid_.altitudes),
             up_,
             down_,
-            settings_.azimuths,
             settings_.steps,
             first_steps(),
+            0,
             0,
             0,
             0,
@@ -170,8 +189,8 @@ class Solution {
 
   void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
     std::vector<vulkan::Binding> bindings =
-        scene_.bind({tables_.series, rays_, light_, moments_, rows_});
-    work_.run(count, std::max<std::int64_t>(evaluations_each / 8, 1), [&](int first, int end) {
+        scene_.bind({tables_.series, rays_, light_, moments_, rows_, order_});
+    work_.run(count, evaluations_each, [&](int first, int end) {
       part.first = first;
       part.end = end;
       tracer_.commands.dispatch(kernel, constants_, bindings, vulkan::bytes_of(part),
@@ -186,7 +205,7 @@ class Solution {
   MomentTables& tables_;
   vulkan::Specialization constants_;
   int groups_, up_, down_, rows_at_once_;
-  vulkan::Buffer rays_, light_, moments_, rows_;
+  vulkan::Buffer rays_, light_, moments_, rows_, order_;
   PacedWork work_;
 };
 
@@ -220,12 +239,13 @@ void PacedWork::submit() {
 }
 
 MomentSolver::MomentSolver(vulkan::Device& device)
-    : rays_(device, moments_rays_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-      first_(device, moments_first_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-      project_(device, moments_project_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-      rows_(device, moments_rows_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-      next_(device, moments_next_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-      close_(device, moments_close_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+    : rays_(device, moments_rays_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      first_(device, moments_first_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      project_(device, moments_project_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      order_(device, moments_order_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      rows_(device, moments_rows_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      next_(device, moments_next_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      close_(device, moments_close_spirv, UploadedScene::bindings + 6, sizeof(Push)),
       refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
 
 std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
@@ -240,7 +260,7 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   solution.trace_first_order(first_);
   solution.project(project_);
   for (int order = 2; order <= settings.orders; ++order) {
-    solution.refine_order(*this);
+    solution.refine_order(order_);
     solution.trace_next_order(rows_, next_);
     solution.project(project_);
   }
@@ -252,7 +272,7 @@ void MomentSolver::refine(PacedWork& work, Tracer& tracer, const UploadedScene& 
                           const vulkan::Buffer& coarse, const vulkan::Buffer& fine, int outer,
                           const Axis& axis) {
   std::vector<vulkan::Binding> bindings = scene.bind({coarse, fine});
-  work.run(outer * axis.fine * axis.inner, 1, [&](int first, int end) {
+  work.run(outer * axis.fine * axis.inner, 8, [&](int first, int end) {
     RefinePush push{axis, first, end};
     tracer.commands.dispatch(refine_, moment_constants(scene, 0, false), bindings,
                              vulkan::bytes_of(push), {vulkan::groups_for(end - first, 64)});

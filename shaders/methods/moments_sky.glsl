@@ -1,0 +1,144 @@
+// What the kernels that make the sky of a camera have in common: light that was scattered more than once, by
+// elevation, for rays that miss the ground and then for those that meet it, and azimuth.
+#include "methods/moments_view.glsl"
+
+const int SERIES = DEGREE + 1;  // terms in azimuth
+const int SENT = SERIES + 1;    // they and the aureole's
+const int SKY_POINTS = 8;       // at most, of an elevation
+
+// From outside the air an elevation may see day and night: then every azimuth is looked at by itself.
+layout(constant_id = 12) const bool EACH_AZIMUTH = false;
+
+layout(push_constant) uniform Push {
+  MomentGrid grid;
+  int fine_altitudes, fine_suns;
+  int elevations, azimuths;   // of the sky; the ground has as many
+  int steps;
+  int first, end;
+} push;
+
+// For each elevation and node its (altitude, zenith cosine, distance, points); then for each point the terms
+// of what is sent from there, and what the aureole's function multiplies.
+layout(std430, binding = OWN + 2) restrict buffer RayBuffer { Vec4 ray_data[]; };
+
+int place_at(int e, int k) { return e * push.steps + k; }
+int sent_at(int e, int k, int point) {
+  int places = 2 * push.elevations * push.steps;
+  return places + (place_at(e, k) * SKY_POINTS + point) * SENT * GROUPS;
+}
+
+// All rays of an elevation, x the cosine of their azimuths from the axis.
+struct SkyRay {
+  Real altitude_km;   // where it enters the air, or of the camera
+  Real mu;
+  Real length_km;
+  Vec2 axis;          // zenith cosine of the axis there: axis.x + axis.y x
+  Vec2 nu;            // and its cosine with the ray
+};
+
+SkyRay sky_ray(int e) {
+  bool ground = e >= push.elevations;
+  Real share = Real(ground ? e - push.elevations : e) / Real(push.elevations - 1);
+  Vec3 axis = sun_axis();
+  Path path = path_from_camera(direction_of_share(max(share, 2e-3), ground, 0.0, axis_forward(axis)));
+  SkyRay ray;
+  ray.altitude_km = path.altitude_km;
+  ray.mu = path.mu;
+  // At the horizon itself rounding doesn't decide.
+  ray.length_km = ground ? distance_to_ground(path.altitude_km, path.mu)
+                         : distance_to_top(path.altitude_km, path.mu);
+  Real axis_sine = length(Vec2(axis.x, axis.y));
+  Vec3 start = path.start / length(path.start);
+  ray.axis = Vec2(start.z * axis.z, length(Vec2(start.x, start.y)) * axis_sine);
+  ray.nu = Vec2(path.direction.z * axis.z, length(Vec2(path.direction.x, path.direction.y)) * axis_sine);
+  return ray;
+}
+
+Real nu_at(SkyRay ray, Real x) { return ray.nu.x + ray.nu.y * x; }
+
+Real axis_at(SkyRay ray, Real x, Real t_km, Real h) {
+  return axis_after(ray.altitude_km, ray.axis.x + ray.axis.y * x, nu_at(ray, x), t_km, h);
+}
+
+// A node of a sky's ray.
+struct SkyNode {
+  Real altitude_km;
+  Real mu;        // zenith cosine of the ray there
+  Real t_km;      // from the ray's start
+  Real width_km;
+};
+
+SkyNode sky_node(SkyRay ray, int k) {
+  Vec2 rule = gauss_node(push.steps, k);
+  RayNode node = ray_node(cuts_of(ray.altitude_km, ray.mu, ray.length_km), rule.x, rule.y);
+  SkyNode place;
+  place.altitude_km = altitude_after(ray.altitude_km, ray.mu, node.t_km);
+  place.mu = mu_after(ray.altitude_km, ray.mu, node.t_km, place.altitude_km);
+  place.t_km = node.t_km;
+  place.width_km = node.width_km;
+  return place;
+}
+
+Vec4 dimmed(ARRAY(Real, column, MEDIA_SIZE), int g) {
+  Vec4 depth = Vec4(0.0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + spectra[(2 + 3 * c) * GROUPS + g] * column[c];
+  return exp(-depth);
+}
+
+// A value between four nodes of the table.
+Vec4 between(int at, int to_sun, int to_altitude, Vec2 x) {
+  return mix(mix(moments[at], moments[at + to_sun], x.x),
+             mix(moments[at + to_altitude], moments[at + to_altitude + to_sun], x.x), x.y);
+}
+
+// What a node sends at the azimuth whose cosine is x: the terms of its series in azimuth, and what the
+// aureole's function multiplies.
+void sent_by(SkyRay ray, SkyNode node, Real x, int g, OUT_ARRAY(Vec4, term, SENT)) {
+  Real h = node.altitude_km;
+  Real column[MEDIA_SIZE];
+  Real density[MEDIA_SIZE];
+  columns_along(ray.altitude_km, ray.mu, node.t_km, column);
+  densities(h, density);
+  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= share_of_extinction(c);
+  Vec4 seen = dimmed(column, g) * node.width_km;
+
+  Real altitude_node = node_of_altitude(push.grid, h) / Real(push.grid.altitudes - 1) *
+                       Real(push.fine_altitudes - 1);
+  Real sun_node = node_of_sun(push.grid, sun_range(push.grid, h), axis_at(ray, x, node.t_km, h)) /
+                  Real(push.grid.suns - 1) * Real(push.fine_suns - 1);
+  int i = min(int(altitude_node), push.fine_altitudes - 2);
+  int s = min(int(sun_node), push.fine_suns - 2);
+  Vec2 share = Vec2(sun_node - Real(s), altitude_node - Real(i));
+  int at = (i * push.fine_suns + s) * SLOTS * GROUPS + g;
+  int to_sun = SLOTS * GROUPS;
+  int to_altitude = push.fine_suns * to_sun;
+  Vec4 lowest = exp(between(at, to_sun, to_altitude, share)) * seen;
+
+  Real p[MOST_MOMENTS];
+  zenith_polynomials(node.mu, DEGREE, p);
+  UNROLL for (int m = 0; m < SENT; ++m) term[m] = Vec4(0.0);
+  Vec4 peaked = Vec4(0.0);
+  UNROLL for (int l = 0; l <= DEGREE; ++l) {
+    if (!PARTICLES && l % 2 == 1) continue;
+    Vec4 scattered = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      Vec4 share_l = series(c, l, g) * (4.0 * PI / Real(2 * l + 1)) - peak(c, g);
+      Vec4 coefficient = spectra[(3 + 3 * c) * GROUPS + g] * density[c];
+      scattered = scattered + coefficient * share_l;
+      if (l == 0 && medium(c).phase > PHASE_RAYLEIGH) peaked = peaked + coefficient;
+    }
+    UNROLL for (int m = 0; m <= DEGREE; ++m) {
+      if (m > l) continue;
+      int n = moment_index(l, m);
+      Vec4 ratio = Vec4(1.0);
+      if (n > 0) ratio = between(at + n * GROUPS, to_sun, to_altitude, share);
+      term[m] = term[m] + scattered * ratio * p[n];
+    }
+  }
+  UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = term[m] * lowest;
+  if (PARTICLES) term[SERIES] = peaked * between(at + AUREOLE * GROUPS, to_sun, to_altitude, share) * lowest;
+}
+
+// Points where so many spacings of the sun's nodes lie between the azimuths 0 and pi: more than the tables
+// take, which only have to be right in the mean over azimuths.
+int sky_points(Real spacings) { return clamp(1 + int(ceil(4.0 * spacings - 0.1)), 1, SKY_POINTS); }
