@@ -86,7 +86,7 @@ class Program {
 TEST(Command, EveryCommandHelpsWithAnExample) {
   for (const auto* name :
        {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
-        "bench", "chart", "audit", "profile", "compare", "explain"}) {
+        "bench", "chart", "audit", "profile", "load", "compare", "explain"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
