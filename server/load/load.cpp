@@ -88,7 +88,8 @@ class Generator {
            LoadReport& report) const {
     json scene = settings_.scene;
     // A little brighter each time: another frame of the same atmosphere and plan.
-    if (settings_.vary) scene["image"]["exposure_ev"] = 1e-6 * static_cast<double>(i);
+    if (settings_.vary)
+      scene["image"]["exposure_ev"] = 1e-6 * static_cast<double>(settings_.first + i);
     httplib::Headers headers;
     if (!settings_.token.empty()) headers.emplace("Authorization", "Bearer " + settings_.token);
     const auto sent = Clock::now();
@@ -125,6 +126,12 @@ class Generator {
 
 double LoadReport::frames_per_s() const {
   return seconds > 0 ? static_cast<double>(frame_ms.size()) / seconds : 0;
+}
+
+std::size_t LoadReport::sent() const {
+  std::size_t all = 0;
+  for (const auto& [status, count] : statuses) all += count;
+  return all;
 }
 
 LoadReport run_load(const LoadSettings& settings) {

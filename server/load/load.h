@@ -17,7 +17,8 @@ struct LoadSettings {
   std::optional<double> rate;
   double seconds = 10;
   nlohmann::json scene = nlohmann::json::object();
-  bool vary = true;  ///< every scene another one, so that none has been kept
+  bool vary = true;       ///< every scene another one, so that none has been kept
+  std::size_t first = 0;  ///< number of the first scene: another one, another run
   std::string token;
 };
 
@@ -32,6 +33,7 @@ struct LoadReport {
   double cpu_s = 0;  ///< of the generator itself
 
   double frames_per_s() const;
+  std::size_t sent() const;
 };
 
 /// @throws std::runtime_error where nobody answers at the origin
