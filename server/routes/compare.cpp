@@ -136,7 +136,7 @@ json operation() {
   return {{"requestBody", body},
           {"parameters", openapi::link_parameters()},
           {"responses",
-           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 503, 504})}};
+           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

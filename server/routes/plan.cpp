@@ -34,7 +34,7 @@ json operation() {
                       {"why", text},
                       {"atmosphere", text}}}};
   return {{"responses", openapi::responses(openapi::json_content(schema),
-                                           {400, 408, 411, 413, 415, 422, 503, 504})}};
+                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ json operation() {
           {"properties", {{"direct", list}, {"diffuse_down", list}, {"diffuse_up", list}}}}}}}};
   return {{"requestBody", openapi::json_body(body)},
           {"responses", openapi::responses(openapi::json_content(answer),
-                                           {400, 408, 411, 413, 415, 422, 503, 504})}};
+                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

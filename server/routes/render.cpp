@@ -59,7 +59,8 @@ json operation() {
   for (const auto& each : encodings()) {
     content[std::string(each.media_type)] = {{"schema", json::object()}};
   }
-  json responses = openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 503, 504});
+  json responses =
+      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
   openapi::add_header(
       responses, "Cache-Status",
       "RFC 9211: kept (hit), or rendered, where `collapsed` for another's request.");
