@@ -142,6 +142,14 @@ TEST(Command, AFileThatIsNotThereIsAFailure) {
   EXPECT_THAT(run.err(), ::testing::HasSubstr("/nowhere.json"));
 }
 
+TEST(Command, AFullDiskIsAFailure) {
+  TemporaryFolder folder;
+  fs::create_symlink("/dev/full", folder / "sky.png");
+  Program run({"render", "-", "-o", folder / "sky.png"}, small_scene().dump());
+  EXPECT_EQ(run.wait(), 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("sky.png"));
+}
+
 TEST(Command, PlanRadianceAndSchemaAnswerAsTheRoutesDo) {
   Program plan({"plan", "-"}, small_scene().dump());
   EXPECT_EQ(plan.wait(), 0) << plan.err();
@@ -234,6 +242,38 @@ TEST(Serve, AnAddressThatIsTakenIsAFailure) {
 TEST(Serve, ADeviceThatIsNotThereIsAFailure) {
   Program run({"serve", "--listen", "127.0.0.1:0", "--device", "no such device"});
   EXPECT_EQ(run.wait(), 1);
+}
+
+TEST(Serve, ADriverThatDoesNotStartIsAFailure) {
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+    setenv(name, "/nowhere.json", 1);
+  }
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  const int ended = run.wait();
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) unsetenv(name);
+  EXPECT_EQ(ended, 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("no device to work on"));
+}
+
+/// A log on a full disk is lost; the daemon is not.
+TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
+  int port = 0;
+  {
+    Daemon free(free_port());
+    port = free.port();
+  }
+  Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(port)}, "", "/dev/full");
+  httplib::Client daemon("127.0.0.1", port);
+  daemon.set_read_timeout(60);
+  httplib::Result answer = daemon.Get("/healthz");
+  for (int i = 0; i < 600 && !answer; ++i) {
+    std::this_thread::sleep_for(10ms);
+    answer = daemon.Get("/healthz");
+  }
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(daemon.Post("/v1/render", small_scene().dump(), "application/json")->status, 200);
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.wait(), 0);
 }
 
 TEST(Serve, SettingsComeFromTheEnvironmentAndAreChecked) {

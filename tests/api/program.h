@@ -31,17 +31,19 @@ inline std::string read_file(const std::filesystem::path& path) {
 /// A run of the program; its output is read when it has ended.
 class Program {
  public:
-  Program(const std::vector<std::string>& arguments, const std::string& input = "") {
+  /// @param errors  where its standard error goes, unless to err()
+  Program(const std::vector<std::string>& arguments, const std::string& input = "",
+          const std::string& errors = "") {
     std::ofstream(folder_ / "in") << input;
     std::fflush(nullptr);  // or the child writes it once more
     pid_ = fork();
     if (pid_ != 0) return;
-    const auto redirect = [&](const char* name, const char* mode, FILE* stream) {
-      if (!freopen((folder_ / name).c_str(), mode, stream)) _exit(99);
+    const auto redirect = [&](const std::string& path, const char* mode, FILE* stream) {
+      if (!freopen(path.c_str(), mode, stream)) _exit(99);
     };
-    redirect("in", "r", stdin);
-    redirect("out", "w", stdout);
-    redirect("err", "w", stderr);
+    redirect(folder_ / "in", "r", stdin);
+    redirect(folder_ / "out", "w", stdout);
+    redirect(errors.empty() ? (folder_ / "err").string() : errors, "w", stderr);
     std::vector<char*> argv;
     const std::string path = program();
     argv.push_back(const_cast<char*>(path.c_str()));

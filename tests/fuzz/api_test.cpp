@@ -6,6 +6,7 @@
 #include <httplib.h>
 
 #include <map>
+#include <thread>
 
 #include "engine/scene/document.h"
 #include "server/daemon.h"
@@ -167,6 +168,9 @@ TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
   client.set_keep_alive(true);
   client.set_tcp_nodelay(true);
   client.set_read_timeout(120);
+  for (int i = 0; i < 6000 && client.Get("/readyz")->status != 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   ApiFuzzer fuzzer(json::parse(client.Get("/openapi.json")->body),
                    json::parse(client.Get("/v1/schema")->body));
   const unsigned first = from_environment("CYANOMETER_FUZZ_FIRST", 0);
