@@ -55,7 +55,8 @@ std::shared_ptr<const EncodedFrame> Frames::find(const std::string& tag) {
 
 void Frames::keep(const std::string& tag, const std::shared_ptr<const EncodedFrame>& frame) {
   const auto bytes_of = [](const Entry& entry) {
-    return entry.frame->bytes.size() + sizeof(EncodedFrame) + 2 * entry.tag.size();
+    constexpr std::size_t places = 256;  // in the list, in the map and on the heap, about
+    return entry.frame->bytes.size() + sizeof(EncodedFrame) + 2 * entry.tag.size() + places;
   };
   Entry entry{tag, frame};
   const std::lock_guard lock(mutex_);

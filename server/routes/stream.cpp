@@ -107,6 +107,7 @@ class Stream {
     PlannedFrame planned = next_plan(watch);
     const bool last = next_ == sequence_.count;
     const auto got = get_frame(planned, request_.peer, service_, watch, last);
+    shown_ = planned.plan;
     Fields fields = planned_fields(planned);
     fields.emplace_back("Content-Length", std::to_string(got.frame->bytes.size()));
     fields.emplace_back("Cyanometer-Frame",
@@ -127,7 +128,6 @@ class Stream {
       const bool worth = coarse.plan.expected_ms <= aim_->plan.expected_ms / 2 &&
                          coarse.plan.expected_error > aim_->plan.expected_error;
       if (again || !worth) continue;
-      shown_ = coarse.plan;
       return coarse;
     }
     const int place = next_++;
@@ -139,7 +139,7 @@ class Stream {
   Sequence sequence_;
   SteadyPlans plans_;
   std::optional<PlannedFrame> aim_;  ///< of a refinement
-  Plan shown_;
+  Plan shown_;                       ///< of the frame before
   std::optional<Part> first_;
   int next_ = 0;
   int sent_ = 0;

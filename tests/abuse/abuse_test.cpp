@@ -31,8 +31,9 @@ int number_from_environment(const char* name, int otherwise) {
 
 /// A daemon in a process of its own, ready.
 struct Served {
-  Served()
-      : run({"serve", "--listen", "127.0.0.1:0", "--ops-listen", "127.0.0.1:0"}),
+  explicit Served(const std::string& cache_mb = "256")
+      : run({"serve", "--listen", "127.0.0.1:0", "--ops-listen", "127.0.0.1:0", "--cache-mb",
+             cache_mb}),
         port(run.port()),
         ops_port(run.port("ops_port")) {
     for (int i = 0; i < 6000 && !ready(); ++i) std::this_thread::sleep_for(10ms);
@@ -242,7 +243,7 @@ TEST(Abuse, StoppedInTheMiddle) {
 
 TEST(Abuse, Soak) {
   const double renders = number_from_environment("CYANOMETER_RENDERS", 100000);
-  Served served;
+  Served served("16");  // full of frames after a tenth: what it keeps grows no more
   LoadSettings settings;
   settings.origin = served.origin();
   settings.clients = 4;
@@ -252,10 +253,12 @@ TEST(Abuse, Soak) {
   settings.scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
   const std::string count = "cyanometer_frames_rendered_total";
   while (served.metric(count) < 0.1 * renders) load(settings);
+  std::this_thread::sleep_for(1s);  // the last connections are closed
   const double resident = served.resident_mib();
   const double device = served.metric("cyanometer_device_memory_bytes");
   const auto files = served.open_files();
   while (served.metric(count) < renders) load(settings);
+  std::this_thread::sleep_for(1s);
   std::printf(
       "%.0f renders: resident %.1f MiB after a tenth, %.1f at the end; device memory "
       "%.0f and %.0f bytes; open files %zu and %zu\n",
