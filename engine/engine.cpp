@@ -484,6 +484,15 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
 
 void Engine::forget_tables() { parts_->tables.clear(); }
 
+std::size_t Engine::device_bytes() const { return parts_->device.allocated_bytes(); }
+
+void Engine::inject(const EngineFaults& faults) {
+  if (faults.lose_at_submission > 0) {
+    parts_->device.lose_at_submission(faults.lose_at_submission);
+  }
+  if (faults.memory_bytes > 0) parts_->device.limit_memory(faults.memory_bytes);
+}
+
 TableUse Engine::tables() const { return {parts_->tables.bytes(), parts_->tables.making_ms()}; }
 
 namespace {

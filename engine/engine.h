@@ -27,6 +27,10 @@ struct Cancelled : std::runtime_error {
 struct DeviceLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// The device has no memory for the work now; it may have when other frames are gone.
+struct OutOfDeviceMemory : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 /// A sound request that is over a limit of this engine.
 struct OverLimit : std::runtime_error {
   OverLimit(std::string pointer_, const std::string& detail);
@@ -35,7 +39,8 @@ struct OverLimit : std::runtime_error {
 
 /// Looked at between tiles of work.
 struct Watch {
-  /// True when the result is no longer wanted; called every few tens of milliseconds.
+  /// True when the result is no longer wanted; called every few tens of milliseconds. It may
+  /// use the engine for other work meanwhile.
   std::function<bool()> gone = [] { return false; };
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   /// Share of the work done, 0 to 1.
@@ -100,6 +105,12 @@ struct TableUse {
   double making_ms = 0;   ///< spent on all that were made so far
 };
 
+/// For tests: what is to go wrong with the device.
+struct EngineFaults {
+  int lose_at_submission = 0;    ///< that one from now and all after it fail; 0: none
+  std::size_t memory_bytes = 0;  ///< of all buffers together; 0: what there is
+};
+
 /// One thing a method can be told, as data: the schema, the page and the documentation read it.
 struct MethodOption {
   std::string name, title, description, unit;
@@ -159,6 +170,9 @@ class Engine {
   /// The device in use, as it enters an ETag and the logs.
   const DeviceDescription& device() const;
   TableUse tables() const;
+  /// The device's memory in use.
+  std::size_t device_bytes() const;
+  void inject(const EngineFaults& faults);
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();
   /// Dispatches every pipeline once, so that the first request finds them compiled; and at the

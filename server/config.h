@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/engine.h"
+
 namespace cyanometer {
 
 struct Config {
@@ -19,13 +21,24 @@ struct Config {
   double drain_s = 0;
   int max_pixels = 4096 * 4096;
   int max_wavelengths = 64;
+  double max_samples = 16777216;
+  double max_device_s = 3600;
+  int max_frames = 3600;
   double max_body_mb = 4;
   double frame_memory_mb = 2048;
   double cache_mb = 256;
+  std::string token;
+  std::string cors_origin;
   std::string log_level = "info";
 
+  // No settings: for tests.
+  bool warm = true;
+  EngineFaults faults = {};
+
   std::size_t body_bytes() const { return static_cast<std::size_t>(max_body_mb * 1048576); }
-  std::size_t cache_bytes() const { return static_cast<std::size_t>(cache_mb * 1048576); }
+  /// Of what is kept between requests, frames get a quarter and tables the rest.
+  std::size_t kept_frame_bytes() const { return static_cast<std::size_t>(cache_mb * 262144); }
+  std::size_t table_bytes() const { return 3 * kept_frame_bytes(); }
   std::size_t frame_bytes() const {
     return static_cast<std::size_t>(frame_memory_mb * 1048576);
   }

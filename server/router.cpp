@@ -4,7 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "engine/scene/document.h"
+#include "server/access.h"
+#include "server/current_problem.h"
 #include "server/log.h"
 #include "server/routes/page.h"
 #include "server/routes/route.h"
@@ -15,65 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Named by the interface, not offered by this version.
-constexpr std::array later_paths{"/v1/stream", "/v1/composite"};
-
-constexpr int client_left = 499;  ///< in logs and metrics; nobody is there to read it
-
-HttpProblem problem_of(const SceneError& error) {
-  HttpProblem problem(400, error.what());
-  problem.pointer = error.pointer;
-  problem.given = error.given;
-  problem.allowed = error.allowed;
-  return problem;
-}
-
-HttpProblem problem_of(const OverLimit& limit) {
-  HttpProblem problem(422, limit.what());
-  problem.pointer = limit.pointer;
-  return problem;
-}
-
-HttpProblem problem_of(const Cancelled& cancelled) {
-  return cancelled.reason == Cancelled::Reason::deadline
-             ? HttpProblem(504, "The deadline passed before the work was done.")
-             : HttpProblem(client_left, "The client left.");
-}
-
-HttpProblem problem_of(const QueueFull& full) {
-  HttpProblem problem(503, "The render queue is full.");
-  problem.retry_after_s = full.retry_after_s;
-  return problem;
-}
-
-HttpProblem no_device() {
-  HttpProblem problem(503, "There is no device to render on.");
-  problem.retry_after_s = 5;
-  return problem;
-}
-
-/// The exception in flight as a problem; what it says of the inside is logged, never sent.
-HttpProblem current_problem() {
-  try {
-    throw;
-  } catch (const HttpProblem& problem) {
-    return problem;
-  } catch (const SceneError& error) {
-    return problem_of(error);
-  } catch (const OverLimit& limit) {
-    return problem_of(limit);
-  } catch (const Cancelled& cancelled) {
-    return problem_of(cancelled);
-  } catch (const QueueFull& full) {
-    return problem_of(full);
-  } catch (const DeviceUnavailable&) {
-    return no_device();
-  } catch (const std::exception& error) {
-    log_event(spdlog::level::err, std::string("unexpected: ") + error.what());
-  } catch (...) {
-    log_event(spdlog::level::err, "unexpected: not an exception");
-  }
-  return HttpProblem(500, "Something went wrong inside the server; its log says more.");
-}
+constexpr std::array later_paths{"/v1/composite"};
 
 Answer answer_of(const HttpProblem& problem, const std::string& id) {
   Answer answer;
@@ -84,6 +27,9 @@ Answer answer_of(const HttpProblem& problem, const std::string& id) {
     answer.headers.emplace_back("Retry-After", std::to_string(problem.retry_after_s));
   }
   if (!problem.allow.empty()) answer.headers.emplace_back("Allow", problem.allow);
+  if (!problem.authenticate.empty()) {
+    answer.headers.emplace_back("WWW-Authenticate", problem.authenticate);
+  }
   answer.body = problem_json(problem, id);
   return answer;
 }
@@ -106,6 +52,8 @@ const Route* find(const std::string& method, const std::string& path, bool ops_o
   return nullptr;
 }
 
+bool is_probe(const std::string& path) { return path == "/healthz" || path == "/readyz"; }
+
 }  // namespace
 
 std::string Router::allowed_methods(const std::string& path) const {
@@ -119,6 +67,9 @@ Answer Router::dispatch(const Request& request) const {
   if (request.method == "OPTIONS" && request.path == "*") {
     return {.status = 204, .headers = {{"Allow", "GET, HEAD, POST, OPTIONS"}}};
   }
+  // Browsers ask beforehand without it, and probes have none; the operators' port is their own.
+  const bool open = request.method == "OPTIONS" || is_probe(request.path) || ops_only_;
+  if (!open) check_token(request, service_.config);
   if (const Route* route = find(request.method, request.path, ops_only_)) {
     return route->answer(request, service_);
   }
@@ -150,17 +101,21 @@ Answer Router::answer(const Request& request) const {
   }
   answer.headers.emplace_back("X-Content-Type-Options", "nosniff");
   answer.headers.emplace_back("X-Request-Id", request.id);
+  for (auto& field : cors_fields(request, service_.config)) {
+    answer.headers.push_back(std::move(field));
+  }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string route = label(request);
   service_.metrics.answered(route, known_method(request.method), answer.status, seconds);
-  const bool probe = route == "/healthz" || route == "/readyz" || route == "/metrics";
-  log_line(probe ? spdlog::level::debug : spdlog::level::info, {{"id", request.id},
-                                                                {"peer", request.peer},
-                                                                {"method", request.method},
-                                                                {"path", request.path},
-                                                                {"status", answer.status},
-                                                                {"ms", seconds * 1000},
-                                                                {"bytes", answer.body.size()}});
+  const bool probe = is_probe(route) || route == "/metrics";
+  log_line(probe ? spdlog::level::debug : spdlog::level::info,
+           {{"id", request.id},
+            {"peer", request.peer},
+            {"method", request.method},
+            {"path", request.path},
+            {"status", answer.status},
+            {"ms", seconds * 1000},
+            {"bytes", answer.content().size()}});
   return answer;
 }
 

@@ -7,6 +7,7 @@
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/metrics.h"
+#include "server/queue/frames.h"
 #include "server/queue/plans.h"
 #include "server/queue/render_queue.h"
 
@@ -19,11 +20,14 @@ struct Service {
   Metrics metrics;
   RenderQueue queue;
   Plans plans{queue};
+  Frames frames;
   std::atomic<bool> draining{false};
   std::function<int()> connections = [] { return 0; };
 
   bool ready() const { return queue.ready() && !draining; }
-  /// Given up when the request's client leaves or its deadline passes, counted from now.
+  /// Given up when the request's client leaves or its deadline passes, counted from now: the
+  /// server's, or the shorter one that the request asks for.
+  /// @throws HttpProblem where it asks for one that is none, or longer
   Watch watch(const Request& request) const;
 };
 

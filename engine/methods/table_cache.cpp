@@ -11,6 +11,8 @@ std::shared_ptr<const Tables> TableCache::find_or_make(
     return place->second->tables;
   }
   std::shared_ptr<const Tables> tables = timed(make);
+  // While they were made, a more urgent frame may have made the same.
+  if (auto place = places_.find(key); place != places_.end()) return place->second->tables;
   std::size_t bytes = tables->bytes() + key.size();
   if (bytes > most_bytes_) return tables;
   make_room(bytes);

@@ -35,7 +35,7 @@ std::uint32_t memory_type(const Device::Core& core, std::uint32_t allowed, Memor
 }
 
 void allocate(Buffer::Allocation& a, Memory memory) {
-  const Device::Core& core = *a.core;
+  Device::Core& core = *a.core;
   VkMemoryRequirements needs{};
   vkGetBufferMemoryRequirements(core.device, *a.buffer, &needs);
   VkMemoryAllocateInfo info{};
@@ -43,11 +43,16 @@ void allocate(Buffer::Allocation& a, Memory memory) {
   info.allocationSize = needs.size;
   info.memoryTypeIndex = memory_type(core, needs.memoryTypeBits, memory);
   const VkMemoryType& type = core.memory.memoryTypes[info.memoryTypeIndex];
-  if (needs.size > core.memory.memoryHeaps[type.heapIndex].size) throw OutOfMemory(a.size);
+  if (needs.size > core.memory.memoryHeaps[type.heapIndex].size ||
+      core.allocated_bytes + needs.size > core.most_bytes) {
+    throw OutOfMemory(a.size);
+  }
   const VkResult result = vkAllocateMemory(core.device, &info, nullptr, a.memory.out());
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
     throw OutOfMemory(a.size);
   check(result, "vkAllocateMemory");
+  a.memory_bytes = needs.size;
+  core.allocated_bytes += needs.size;
   check(vkBindBufferMemory(core.device, *a.buffer, *a.memory, 0), "vkBindBufferMemory");
   if ((type.propertyFlags & kVisible) == kVisible)
     check(vkMapMemory(core.device, *a.memory, 0, VK_WHOLE_SIZE, 0, &a.mapped), "vkMapMemory");

@@ -3,7 +3,9 @@
 
 #include <vulkan/vulkan.h>
 
+#include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -29,7 +31,9 @@ struct Device::Core {
   DeviceInfo info;
   Limits limits;
   bool lost = false;
-  int submissions_until_loss = 0;  ///< 0: none is planned
+  int submissions_until_loss = 0;               ///< 0: none is planned
+  std::atomic<std::size_t> allocated_bytes{0};  ///< by buffers; these may be freed anywhere
+  std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
 };
 
 /// A handle made from a device, and the device kept alive until it is destroyed.

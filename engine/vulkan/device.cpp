@@ -201,7 +201,7 @@ VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family) {
 }  // namespace
 
 OutOfMemory::OutOfMemory(std::size_t bytes_)
-    : std::runtime_error("no memory for a buffer of " + std::to_string(bytes_) + " bytes"),
+    : OutOfDeviceMemory("no memory for a buffer of " + std::to_string(bytes_) + " bytes"),
       bytes(bytes_) {}
 
 std::vector<DeviceInfo> list() {
@@ -234,6 +234,8 @@ Device::Device(const std::string& name_part) : core_(std::make_shared<Core>()) {
 const DeviceInfo& Device::info() const { return core_->info; }
 const Limits& Device::limits() const { return core_->limits; }
 void Device::lose_at_submission(int n) { core_->submissions_until_loss = n; }
+void Device::limit_memory(std::size_t bytes) { core_->most_bytes = bytes; }
+std::size_t Device::allocated_bytes() const { return core_->allocated_bytes; }
 int Device::validation_messages() const { return core_->instance.validation_messages(); }
 
 }  // namespace cyanometer::vulkan

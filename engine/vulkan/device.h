@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/engine.h"
+
 namespace cyanometer::vulkan {
 
 /// No device there is fits what was asked for.
@@ -21,7 +23,7 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 /// The device or the host has no room for so many bytes.
-struct OutOfMemory : std::runtime_error {
+struct OutOfMemory : OutOfDeviceMemory {
   explicit OutOfMemory(std::size_t bytes_);
   std::size_t bytes;
 };
@@ -71,6 +73,10 @@ class Device {
   /// For tests of recovery: the n-th submission from now (1 is the next one) and all that
   /// follow fail as on a device that went away.
   void lose_at_submission(int n);
+  /// For tests: buffers that would make all memory in use more than this find none.
+  void limit_memory(std::size_t bytes);
+  /// Of the device's memory, in use by buffers; also from other threads.
+  std::size_t allocated_bytes() const;
   /// Warnings and errors of the validation layer so far; 0 where it is off.
   int validation_messages() const;
 

@@ -93,6 +93,8 @@ void check(VkResult result, const char* call) {
   if (result >= VK_SUCCESS) return;
   const std::string message = std::string(call) + " failed: " + name_of(result);
   if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    throw OutOfDeviceMemory(message);
   throw Error(message);
 }
 

@@ -7,7 +7,7 @@
 
 namespace cyanometer::vulkan {
 
-/// @throws Error or DeviceLost, naming the call
+/// @throws Error, DeviceLost or OutOfDeviceMemory, naming the call
 void check(VkResult result, const char* call);
 
 class Instance {

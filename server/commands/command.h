@@ -59,5 +59,6 @@ void add_bench(CLI::App& app);
 void add_chart(CLI::App& app);
 void add_audit(CLI::App& app);
 void add_profile(CLI::App& app);
+void add_load(CLI::App& app);
 
 }  // namespace cyanometer

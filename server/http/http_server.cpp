@@ -107,9 +107,8 @@ bool HttpServer::serve_one(Connection& connection, bool last) {
     const auto received = connection.read();
     if (!received) return false;
     const Answer answer = handlers_.answer(received->request);
-    const bool close = received->close || last || stopping_;
-    return connection.write(serialise(answer, received->request.method == "HEAD", close)) &&
-           !close;
+    const bool close = received->close || last || stopping_ || answer.stream;
+    return send(connection, answer, received->request.method == "HEAD", close) && !close;
   } catch (const HttpProblem& problem) {
     refuse(connection, problem);
     return false;
@@ -126,7 +125,23 @@ bool HttpServer::wait_for_request(const Connection& connection, bool first) cons
 }
 
 void HttpServer::refuse(Connection& connection, const HttpProblem& problem) const {
-  connection.write(serialise(handlers_.refuse(problem, connection.peer()), false, true));
+  send(connection, handlers_.refuse(problem, connection.peer()), false, true);
+}
+
+bool HttpServer::send(const Connection& connection, const Answer& answer, bool head_only,
+                      bool close) {
+  std::string head = serialise_head(answer, close);
+  if (!has_body(answer, head_only)) return connection.write(head);
+  if (answer.stream) {
+    if (!connection.write(head)) return false;
+    answer.stream([&](std::string_view bytes) { return connection.write(bytes); });
+    return true;
+  }
+  // What is short goes in one packet with its head; what is long is not copied.
+  constexpr std::size_t short_bytes = 16384;
+  const auto content = answer.content();
+  if (content.size() <= short_bytes) return connection.write(head.append(content));
+  return connection.write(head) && connection.write(content);
 }
 
 }  // namespace cyanometer

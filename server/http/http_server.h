@@ -48,6 +48,9 @@ class HttpServer : private httplib::Server {
   bool serve_one(Connection& connection, bool last);
   bool wait_for_request(const Connection& connection, bool first) const;
   void refuse(Connection& connection, const HttpProblem& problem) const;
+  /// False when the client did not take it all.
+  static bool send(const Connection& connection, const Answer& answer, bool head_only,
+                   bool close);
 
   Options options_;
   Handlers handlers_;

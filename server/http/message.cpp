@@ -241,17 +241,25 @@ Request make_request(const Head& head) {
   return request;
 }
 
-std::string serialise(const Answer& answer, bool head_only, bool close) {
+namespace {
+
+bool is_bodyless(int status) { return status == 204 || status == 304; }
+
+}  // namespace
+
+bool has_body(const Answer& answer, bool head_only) {
+  return !head_only && !is_bodyless(answer.status);
+}
+
+std::string serialise_head(const Answer& answer, bool close) {
   std::string out = "HTTP/1.1 " + std::to_string(answer.status) + " ";
   out += status_phrase(answer.status);
   out += "\r\n";
   for (const auto& [name, value] : answer.headers) out += name + ": " + value + "\r\n";
-  const bool bodyless = answer.status == 204 || answer.status == 304;
-  if (!bodyless && answer.length_known) {
-    out += "Content-Length: " + std::to_string(answer.body.size()) + "\r\n";
+  if (!is_bodyless(answer.status) && answer.length_known && !answer.stream) {
+    out += "Content-Length: " + std::to_string(answer.content().size()) + "\r\n";
   }
   out += close ? "Connection: close\r\n\r\n" : "Connection: keep-alive\r\n\r\n";
-  if (!bodyless && !head_only) out += answer.body;
   return out;
 }
 

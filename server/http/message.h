@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,12 +28,22 @@ struct Request {
   std::string header(std::string_view lower_case_name) const;
 };
 
+/// Takes the next bytes of a stream; false when the client does not.
+using Write = std::function<bool(std::string_view)>;
+
 struct Answer {
   int status = 200;
   Fields headers = {};
   std::string body = {};
+  std::shared_ptr<const std::string> shared_body = {};  ///< instead of `body`, where not null
+  std::shared_ptr<void> held = {};                      ///< until the answer is sent
+  /// Instead of both: writes the body while it is made, until the connection's end. It must not
+  /// throw.
+  std::function<void(const Write&)> stream = {};
   /// False for the answer to a HEAD whose body's length only rendering would tell.
   bool length_known = true;
+
+  std::string_view content() const { return shared_body ? *shared_body : body; }
 };
 
 /// The head of a request, from its first line to the empty line.
@@ -62,7 +73,10 @@ Framing frame_body(const Head& head, std::size_t most_body_bytes);
 /// @throws HttpProblem 400 where an escape is not one
 Request make_request(const Head& head);
 
-/// Status line, headers and, unless `head_only`, the body.
-std::string serialise(const Answer& answer, bool head_only, bool close);
+/// Whether the answer's body is to be sent.
+bool has_body(const Answer& answer, bool head_only);
+
+/// Status line and headers, with the empty line that ends them.
+std::string serialise_head(const Answer& answer, bool close);
 
 }  // namespace cyanometer

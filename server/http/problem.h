@@ -9,12 +9,13 @@ namespace cyanometer {
 
 struct HttpProblem : std::exception {
   int status = 500;
-  std::string detail;     ///< for people: what is wrong with this request
-  std::string pointer;    ///< RFC 6901, into the request's body; empty: not about one member
-  std::string given;      ///< what stands there, as JSON, shortened
-  std::string allowed;    ///< in words
-  int retry_after_s = 0;  ///< sent as Retry-After where positive
-  std::string allow;      ///< sent as Allow where not empty
+  std::string detail;        ///< for people: what is wrong with this request
+  std::string pointer;       ///< RFC 6901, into the request's body; empty: not about one member
+  std::string given;         ///< what stands there, as JSON, shortened
+  std::string allowed;       ///< in words
+  int retry_after_s = 0;     ///< sent as Retry-After where positive
+  std::string allow;         ///< sent as Allow where not empty
+  std::string authenticate;  ///< sent as WWW-Authenticate where not empty
 
   HttpProblem(int status_, std::string detail_) : status(status_), detail(std::move(detail_)) {}
   const char* what() const noexcept override { return detail.c_str(); }

@@ -1,30 +1,52 @@
 #include "server/queue/plans.h"
 
+#include <nlohmann/json.hpp>
+
+#include "engine/planner/nearby.h"
+#include "engine/scene/document.h"
+
 namespace cyanometer {
 namespace {
 
-constexpr std::size_t most_plans = 1024;
+constexpr std::size_t most_plans = 4096;
 constexpr std::size_t longest_scene = 16384;  ///< bytes; with most_plans, some MiB in all
+/// What planning takes, about; with `verify` it walks at random.
+constexpr double planning_ms = 150, verifying_ms = 5000;
 
 }  // namespace
 
-Plan Plans::get(const Scene& scene, const std::string& canonical, const std::string& client,
-                const Watch& watch) {
+Plans::Planned Plans::get(const Scene& scene, const std::string& client, const Watch& watch) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool verify = scene.method.verify;
+  const std::string key =
+      queue_.device().name + canonical(verify ? scene : nearby(scene)).dump();
   {
     const std::lock_guard lock(mutex_);
-    const auto found = known_.find(canonical);
-    if (found != known_.end()) return found->second;
+    const auto found = known_.find(key);
+    if (found != known_.end()) return {found->second, 0, std::nullopt};
   }
-  Plan plan;
-  queue_.run({.client = client,
-              .quick = true,
-              .watch = watch,
-              .work = [&](Engine& engine, const Watch& w) { plan = engine.plan(scene, w); }});
-  if (canonical.size() > longest_scene) return plan;
+  const auto make = [&](const Watch& shared) {
+    Planned planned;
+    const Ticket ticket = queue_.run({.client = client,
+                                      .expected_ms = verify ? verifying_ms : planning_ms,
+                                      .watch = shared,
+                                      .work = [&](Engine& engine, const Watch& w) {
+                                        planned.plan = engine.plan(scene, w);
+                                      }});
+    planned.place = ticket.place;
+    return planned;
+  };
+  const auto landed = flights_.get(key, watch, make);
+  Planned planned = *landed.value;
+  if (landed.joined) planned.place.reset();
+  planned.ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+          .count();
+  if (key.size() > longest_scene) return planned;
   const std::lock_guard lock(mutex_);
   if (known_.size() >= most_plans) known_.clear();
-  known_.emplace(canonical, plan);
-  return plan;
+  known_.emplace(key, planned.plan);
+  return planned;
 }
 
 }  // namespace cyanometer

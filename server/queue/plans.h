@@ -1,5 +1,7 @@
-// Plans by scene. A plan is a function of scene, version and device, so it is asked for once: a
-// link that is still fresh is answered 304 without waiting behind a long render.
+// Plans, one for all scenes that are nearly alike, as the engine makes them. A plan is a
+// function of scene, version and device, so it is asked for once: a link that is still fresh is
+// answered 304 without waiting behind a long render, and how long a frame takes is known before
+// it waits.
 #pragma once
 
 #include <mutex>
@@ -7,20 +9,26 @@
 #include <unordered_map>
 
 #include "server/queue/render_queue.h"
+#include "server/queue/single_flight.h"
 
 namespace cyanometer {
 
 class Plans {
  public:
   explicit Plans(RenderQueue& queue) : queue_(queue) {}
-  /// `canonical` is the scene's canonical text. @throws as RenderQueue::run
-  Plan get(const Scene& scene, const std::string& canonical, const std::string& client,
-           const Watch& watch);
+  struct Planned {
+    Plan plan;
+    double ms = 0;               ///< that it took to get
+    std::optional<Place> place;  ///< in the queue, where it was waited for there
+  };
+  /// @throws as RenderQueue::run
+  Planned get(const Scene& scene, const std::string& client, const Watch& watch);
 
  private:
   RenderQueue& queue_;
   std::mutex mutex_;
   std::unordered_map<std::string, Plan> known_;
+  SingleFlight<Planned> flights_;
 };
 
 }  // namespace cyanometer

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace cyanometer {
@@ -9,6 +11,9 @@ namespace {
 
 constexpr int most_repairs_in_a_row = 3;
 constexpr std::size_t recent_jobs = 64;
+/// A running job gives way to those that take so much less than itself; with jobs within jobs
+/// each a share of the one around it, few are ever open at once.
+constexpr double shorter_by = 8;
 
 double ms_between(std::chrono::steady_clock::time_point from,
                   std::chrono::steady_clock::time_point to) {
@@ -28,17 +33,27 @@ std::optional<Cancelled::Reason> cancelled_by(const std::exception_ptr& error) {
 
 }  // namespace
 
-QueueFull::QueueFull(int retry_after_s_)
-    : std::runtime_error("the render queue is full"), retry_after_s(retry_after_s_) {}
+QueueFull::QueueFull(Whose whose_, int retry_after_s_)
+    : std::runtime_error(whose_ == Whose::all ? "the render queue is full"
+                                              : "the client's share of the queue is full"),
+      whose(whose_),
+      retry_after_s(retry_after_s_) {}
 
 struct RenderQueue::Entry {
   Job job;
-  std::pair<std::uint64_t, std::uint64_t> place;
+  Place place;
   Clock::time_point entered = Clock::now();
+  Clock::time_point gives_way_after = {};
   Ticket ticket;
   enum class State { waiting, running, done } state = State::waiting;
+  bool lost_device = false;
   std::exception_ptr error;
   std::condition_variable finished;
+
+  /// Of the device, ms; infinite where nobody reckoned it.
+  double cost() const {
+    return job.expected_ms > 0 ? job.expected_ms : std::numeric_limits<double>::infinity();
+  }
 };
 
 RenderQueue::RenderQueue(Options options)
@@ -63,21 +78,41 @@ Ticket RenderQueue::run(Job job) {
 std::shared_ptr<RenderQueue::Entry> RenderQueue::enter(Job job) {
   const auto entry = std::make_shared<Entry>();
   entry->job = std::move(job);
+  const std::string& client = entry->job.client;
   const std::lock_guard lock(mutex_);
   if (failed_ || stopping_) throw DeviceUnavailable(failure_);
-  if (waiting_.size() >= options_.capacity) {
-    ++counts_.rejected;
-    throw QueueFull(retry_after_s());
+  if (entry->job.place) {
+    entry->place = *entry->job.place;
+  } else {
+    admit(client);
+    auto& last = last_turn_[client];
+    last = std::max(last, turn_) + 1;
+    entry->place = {last, arrivals_++};
   }
-  std::uint64_t turn = turn_;
-  if (!entry->job.quick) {
-    auto& last = last_turn_[entry->job.client];
-    last = turn = std::max(last, turn_) + 1;
-  }
-  entry->place = {turn, arrivals_++};
-  waiting_.emplace(entry->place, entry);
-  work_here_.notify_all();
+  put(entry);
   return entry;
+}
+
+void RenderQueue::admit(const std::string& client) {
+  const auto held = waiting_of_.find(client);
+  const bool full = waiting_.size() >= options_.capacity;
+  const bool greedy = held != waiting_of_.end() && held->second >= share();
+  if (!full && !greedy) return;
+  ++counts_.rejected;
+  throw QueueFull(full ? QueueFull::Whose::all : QueueFull::Whose::client, retry_after_s());
+}
+
+void RenderQueue::put(const std::shared_ptr<Entry>& entry) {
+  entry->state = Entry::State::waiting;
+  waiting_.emplace(entry->place, entry);
+  ++waiting_of_[entry->job.client];
+  work_here_.notify_all();
+}
+
+void RenderQueue::remove(const Entry& entry) {
+  waiting_.erase(entry.place);
+  const auto held = waiting_of_.find(entry.job.client);
+  if (--held->second == 0) waiting_of_.erase(held);
 }
 
 void RenderQueue::wait(Entry& entry) {
@@ -97,7 +132,7 @@ void RenderQueue::wait(Entry& entry) {
 }
 
 void RenderQueue::withdraw(Entry& entry, Cancelled::Reason reason) {
-  waiting_.erase(entry.place);
+  remove(entry);
   ++counts_.of(reason);
   entry.error = std::make_exception_ptr(Cancelled(reason));
   entry.state = Entry::State::done;
@@ -107,7 +142,7 @@ void RenderQueue::withdraw(Entry& entry, Cancelled::Reason reason) {
 void RenderQueue::work() {
   if (!make_engine("")) return;
   while (const auto entry = next()) {
-    perform(*entry);
+    perform(entry);
     if (failed_) return;
   }
   fail("the server stops");
@@ -118,7 +153,8 @@ bool RenderQueue::make_engine(std::string reason) {
     try {
       engine_.reset();
       engine_ = std::make_unique<Engine>(options_.engine);
-      engine_->warm();
+      if (options_.warm) engine_->warm();
+      engine_->inject(std::exchange(options_.faults, {}));
       const std::lock_guard lock(mutex_);
       device_ = engine_->device();
       ready_ = true;
@@ -135,63 +171,138 @@ bool RenderQueue::make_engine(std::string reason) {
   return false;
 }
 
+bool RenderQueue::fits(const Entry& entry) const {
+  return frame_bytes_alive_ == 0 ||
+         frame_bytes_alive_ + entry.job.frame_bytes <= options_.frame_bytes;
+}
+
 std::shared_ptr<RenderQueue::Entry> RenderQueue::next() {
   std::unique_lock lock(mutex_);
-  const auto fits = [&](const Entry& entry) {
-    return frame_bytes_alive_ == 0 ||
-           frame_bytes_alive_ + entry.job.frame_bytes <= options_.frame_bytes;
-  };
   work_here_.wait(lock, [&] {
     return stopping_ || (!waiting_.empty() && fits(*waiting_.begin()->second));
   });
   if (stopping_) return nullptr;
   const auto entry = waiting_.begin()->second;
-  waiting_.erase(waiting_.begin());
   turn_ = std::max(turn_, entry->place.first);
+  start(*entry);
   if (waiting_.empty()) last_turn_.clear();
-  entry->state = Entry::State::running;
-  entry->ticket.queued_ms = ms_between(entry->entered, Clock::now());
-  const auto bytes = entry->job.frame_bytes;
-  frame_bytes_alive_ += bytes;
-  entry->ticket.memory = std::shared_ptr<void>(nullptr, [this, bytes](void*) {
-    const std::lock_guard guard(mutex_);
-    frame_bytes_alive_ -= bytes;
-    work_here_.notify_all();
-  });
   return entry;
 }
 
-void RenderQueue::perform(Entry& entry) {
-  bool retried = false;
-  for (;;) {
-    try {
-      entry.job.watch.check();
-      const auto start = Clock::now();
-      entry.job.work(*engine_, entry.job.watch);
-      if (!entry.job.quick) {
-        const std::lock_guard lock(mutex_);
-        recent_ms_.push_back(ms_between(start, Clock::now()));
-        if (recent_ms_.size() > recent_jobs) recent_ms_.pop_front();
-      }
-      losses_in_a_row_ = 0;
-      return finish(entry, nullptr);
-    } catch (const DeviceLost& lost) {
-      ready_ = false;
-      {
-        const std::lock_guard lock(mutex_);
-        ++counts_.device_lost;
-      }
-      ++losses_in_a_row_;
-      options_.log(std::string("device lost: ") + lost.what());
-      const bool again = make_engine(lost.what());
-      if (!again || retried) {
-        return finish(entry, std::make_exception_ptr(DeviceUnavailable(lost.what())));
-      }
-      retried = true;
-    } catch (...) {
-      return finish(entry, std::current_exception());
+std::shared_ptr<RenderQueue::Entry> RenderQueue::much_shorter_than(const Entry& running) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [place, waiting] : waiting_) {
+    const auto entry = waiting;
+    const double cost = entry->cost();
+    if (std::isfinite(cost) && cost * shorter_by <= running.cost() && fits(*entry)) {
+      start(*entry);
+      ++counts_.gave_way;
+      return entry;
     }
   }
+  return nullptr;
+}
+
+void RenderQueue::start(Entry& entry) {
+  remove(entry);
+  entry.state = Entry::State::running;
+  entry.ticket.place = entry.place;
+  entry.ticket.queued_ms = ms_between(entry.entered, Clock::now());
+  entry.ticket.memory = count_alive(entry.job.frame_bytes);
+}
+
+std::shared_ptr<void> RenderQueue::count_alive(std::size_t bytes) {
+  frame_bytes_alive_ += bytes;
+  return {nullptr, [this, bytes](void*) {
+            const std::lock_guard guard(mutex_);
+            frame_bytes_alive_ -= bytes;
+            work_here_.notify_all();
+          }};
+}
+
+std::shared_ptr<void> RenderQueue::hold(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  return count_alive(bytes);
+}
+
+void RenderQueue::give_way(Entry& running) {
+  const auto start = Clock::now();
+  if (start < running.gives_way_after) return;
+  const auto shorter = much_shorter_than(running);
+  if (!shorter) return;
+  perform(shorter);
+  const auto end = Clock::now();
+  running.ticket.given_away_ms += ms_between(start, end);
+  // Short jobs without end take half of the device from a long one, not all of it.
+  running.gives_way_after = end + (end - start);
+}
+
+void RenderQueue::perform(const std::shared_ptr<Entry>& entry) {
+  ++jobs_open_;
+  std::exception_ptr error;
+  std::optional<std::string> lost;
+  try {
+    attempt(*entry);
+    losses_in_a_row_ = 0;
+  } catch (const DeviceLost& loss) {
+    lost = loss.what();
+  } catch (...) {
+    error = std::current_exception();
+  }
+  --jobs_open_;
+  if (!lost) return finish(*entry, error);
+  const bool again = !std::exchange(entry->lost_device, true);
+  entry->ticket = {};
+  if (again) {
+    const std::lock_guard lock(mutex_);
+    put(entry);
+  }
+  const auto give_up = [&] {
+    if (!again) finish(*entry, std::make_exception_ptr(DeviceUnavailable(*lost)));
+  };
+  if (jobs_open_ > 0) {
+    // The job around this one still holds parts of the engine, and has lost its device too.
+    give_up();
+    throw DeviceLost(*lost);
+  }
+  replace_device(*lost);
+  give_up();
+}
+
+void RenderQueue::attempt(Entry& entry) {
+  entry.job.watch.check();
+  Watch watch = entry.job.watch;
+  watch.gone = [this, &entry] {
+    give_way(entry);
+    return entry.job.watch.gone();
+  };
+  const auto start = Clock::now();
+  try {
+    entry.job.work(*engine_, watch);
+  } catch (const OutOfDeviceMemory& none) {
+    {
+      const std::lock_guard lock(mutex_);
+      ++counts_.out_of_memory;
+    }
+    options_.log(std::string("out of device memory, tables are given up: ") + none.what());
+    engine_->forget_tables();
+    entry.job.work(*engine_, watch);
+  }
+  const std::lock_guard lock(mutex_);
+  memory_ = {engine_->device_bytes(), engine_->tables().bytes};
+  recent_ms_.push_back(ms_between(start, Clock::now()) - entry.ticket.given_away_ms);
+  if (recent_ms_.size() > recent_jobs) recent_ms_.pop_front();
+}
+
+void RenderQueue::replace_device(const std::string& reason) {
+  ready_ = false;
+  {
+    const std::lock_guard lock(mutex_);
+    ++counts_.device_lost;
+  }
+  ++losses_in_a_row_;
+  options_.log("device lost: " + reason);
+  make_engine(reason);
 }
 
 void RenderQueue::finish(Entry& entry, std::exception_ptr error) {
@@ -219,6 +330,7 @@ void RenderQueue::fail(const std::string& reason) {
     entry->finished.notify_all();
   }
   waiting_.clear();
+  waiting_of_.clear();
 }
 
 int RenderQueue::retry_after_s() const {
@@ -238,6 +350,11 @@ DeviceDescription RenderQueue::device() const {
 std::size_t RenderQueue::depth() const {
   const std::lock_guard lock(mutex_);
   return waiting_.size();
+}
+
+RenderQueue::MemoryUse RenderQueue::memory() const {
+  const std::lock_guard lock(mutex_);
+  return memory_;
 }
 
 RenderQueue::Counts RenderQueue::counts() const {

@@ -20,26 +20,33 @@ namespace cyanometer {
 
 /// The queue has no room; the client may come back after so many seconds.
 struct QueueFull : std::runtime_error {
-  explicit QueueFull(int retry_after_s_);
+  enum class Whose { all, client } whose;  ///< whose share is used up
   int retry_after_s;
+  QueueFull(Whose whose_, int retry_after_s_);
 };
 /// There is no device to work on, and there will be none in this process.
 struct DeviceUnavailable : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// In order of turn, then of arrival.
+using Place = std::pair<std::uint64_t, std::uint64_t>;
+
 struct Job {
   std::string
       client;  ///< whose turn it takes: clients alternate, one client's jobs keep their order
-  bool quick = false;           ///< milliseconds of work: goes before all others
-  std::size_t frame_bytes = 0;  ///< memory of the result, until the Ticket dies
+  double expected_ms = 0;  ///< on the device, 0: unknown; much shorter jobs are done in between
+  std::optional<Place> place = {};  ///< of a job that this one goes on from: is not refused
+  std::size_t frame_bytes = 0;      ///< memory of the result, until the Ticket dies
   Watch watch = {};
   std::function<void(Engine&, const Watch&)> work = {};
 };
 
 /// What a job that was done leaves: keep it until the frame is encoded and freed.
 struct Ticket {
-  double queued_ms = 0;
+  double queued_ms = 0;      ///< from entering to starting
+  double given_away_ms = 0;  ///< since then, to shorter jobs
+  Place place = {};
   std::shared_ptr<void> memory;
 };
 
@@ -50,13 +57,20 @@ class RenderQueue {
     std::size_t capacity = 64;                       ///< jobs that wait
     std::size_t frame_bytes = std::size_t{2} << 30;  ///< of all frames alive at once
     std::function<void(const std::string& event)> log = [](const std::string&) {};
+    bool warm = true;          ///< tests start sooner without
+    EngineFaults faults = {};  ///< for tests: of the first device, once it is warm
   };
   /// Counted since the start.
   struct Counts {
-    std::uint64_t done = 0, rejected = 0, client_gone = 0, past_deadline = 0, device_lost = 0;
+    std::uint64_t done = 0, rejected = 0, client_gone = 0, past_deadline = 0, device_lost = 0,
+                  out_of_memory = 0, gave_way = 0;
     std::uint64_t& of(Cancelled::Reason reason) {
       return reason == Cancelled::Reason::deadline ? past_deadline : client_gone;
     }
+  };
+  /// Of the device's memory, as of the end of the last job.
+  struct MemoryUse {
+    std::size_t device_bytes = 0, table_bytes = 0;
   };
 
   /// Starts to make the engine, on the queue's own thread.
@@ -68,6 +82,9 @@ class RenderQueue {
   /// @throws QueueFull, Cancelled, DeviceUnavailable, and what the work throws
   Ticket run(Job job);
 
+  /// Counts so many bytes among those of the frames alive, until the handle dies.
+  std::shared_ptr<void> hold(std::size_t bytes);
+
   bool ready() const { return ready_; }
   /// True once the device could not be brought back: the process must end.
   bool failed() const { return failed_; }
@@ -76,19 +93,31 @@ class RenderQueue {
 
   std::size_t depth() const;
   std::size_t capacity() const { return options_.capacity; }
+  /// Of the places, those that one client may hold, so that some are left for the others.
+  std::size_t share() const { return options_.capacity - options_.capacity / 4; }
   Counts counts() const;
+  MemoryUse memory() const;
 
  private:
   struct Entry;
   using Clock = std::chrono::steady_clock;
-
   std::shared_ptr<Entry> enter(Job job);
+  void admit(const std::string& client);
   void wait(Entry& entry);
   void withdraw(Entry& entry, Cancelled::Reason reason);
   void work();
   bool make_engine(std::string reason);
   std::shared_ptr<Entry> next();
-  void perform(Entry& entry);
+  std::shared_ptr<Entry> much_shorter_than(const Entry& running);
+  bool fits(const Entry& entry) const;
+  std::shared_ptr<void> count_alive(std::size_t bytes);
+  void put(const std::shared_ptr<Entry>& entry);
+  void remove(const Entry& entry);
+  void start(Entry& entry);
+  void perform(const std::shared_ptr<Entry>& entry);
+  void attempt(Entry& entry);
+  void give_way(Entry& running);
+  void replace_device(const std::string& reason);
   void fail(const std::string& reason);
   void finish(Entry& entry, std::exception_ptr error);
   int retry_after_s() const;
@@ -96,19 +125,22 @@ class RenderQueue {
   Options options_;
   mutable std::mutex mutex_;
   std::condition_variable work_here_;
-  /// In order of turn, then of arrival. A client's n-th waiting job has its turn n rounds from
-  /// now (start-time fair queueing with equal weights [Goyal, Vin and Cheng 1996]).
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::shared_ptr<Entry>> waiting_;
+  /// A client's n-th waiting job has its turn n rounds from now (start-time fair queueing with
+  /// equal weights [Goyal, Vin and Cheng 1996]).
+  std::map<Place, std::shared_ptr<Entry>> waiting_;
   std::map<std::string, std::uint64_t> last_turn_;
+  std::map<std::string, std::size_t> waiting_of_;  ///< jobs by client
   std::uint64_t turn_ = 0, arrivals_ = 0;
   std::size_t frame_bytes_alive_ = 0;
   std::deque<double> recent_ms_;
   Counts counts_;
+  MemoryUse memory_;
   bool stopping_ = false;
   std::atomic<bool> ready_{false}, failed_{false};
   std::optional<DeviceDescription> device_;
   std::string failure_;
   int losses_in_a_row_ = 0;
+  int jobs_open_ = 0;  ///< on the device's thread, one within the other
   std::unique_ptr<Engine> engine_;
   std::thread thread_;
 };

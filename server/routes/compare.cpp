@@ -10,6 +10,7 @@
 #include "server/routes/answers.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
+#include "server/routes/reading.h"
 #include "server/routes/route.h"
 #include "server/routes/scene_request.h"
 
@@ -44,19 +45,11 @@ Answer figures_answer(const Comparison& comparison) {
   return answer;
 }
 
-void check_at(const std::string& pointer, const Scene& scene, const Config& config) {
-  try {
-    check_frame(scene, config);
-  } catch (const OverLimit& limit) {
-    throw OverLimit(pointer + limit.pointer, limit.what());
-  }
-}
-
 Answer compare_scenes(const Request& request, Service& service, bool picture) {
   const Watch watch = service.watch(request);
   const auto asked = read_compare_request(body_document(request));
-  check_at("/a", asked.a, service.config);
-  check_at("/b", asked.b, service.config);
+  within("/a", [&] { check_frame(asked.a, service.config); });
+  within("/b", [&] { check_frame(asked.b, service.config); });
   FramePair frames;
   const Ticket ticket = service.queue.run(
       {.client = request.peer,
@@ -143,7 +136,7 @@ json operation() {
   return {{"requestBody", body},
           {"parameters", openapi::link_parameters()},
           {"responses",
-           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 503, 504})}};
+           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

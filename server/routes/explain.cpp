@@ -45,9 +45,10 @@ json operation() {
        "others), "
        "multiple_scattering, order_2, order_3, ..., curvature, ground, wavelength_4, ..."},
       {"additionalProperties", worth}};
-  return {{"requestBody", openapi::json_body(openapi::scene_schema_reference())},
-          {"responses", openapi::responses(openapi::json_content(answer),
-                                           {400, 406, 408, 411, 413, 415, 422, 503, 504})}};
+  return {
+      {"requestBody", openapi::json_body(openapi::scene_schema_reference())},
+      {"responses", openapi::responses(openapi::json_content(answer),
+                                       {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

@@ -42,6 +42,23 @@ std::string metrics_of(Service& service) {
                counts.past_deadline);
   out += value("cyanometer_device_lost_total", "counter", "Times the device was lost.",
                counts.device_lost);
+  out += value("cyanometer_out_of_memory_total", "counter",
+               "Jobs that found no memory at first.", counts.out_of_memory);
+  out += value("cyanometer_gave_way_total", "counter",
+               "Short jobs done between the tiles of long ones.", counts.gave_way);
+  const auto frames = service.frames.counts();
+  out +=
+      value("cyanometer_frames_rendered_total", "counter", "Frames rendered.", frames.rendered);
+  out += value("cyanometer_frames_joined_total", "counter",
+               "Frames that another request in flight rendered.", frames.joined);
+  out += value("cyanometer_frames_kept_total", "counter", "Frames that had been kept.",
+               frames.kept);
+  out += value("cyanometer_kept_frame_bytes", "gauge", "Memory of kept frames.",
+               frames.kept_bytes);
+  const auto memory = service.queue.memory();
+  out += value("cyanometer_table_bytes", "gauge", "Memory of tables.", memory.table_bytes);
+  out += value("cyanometer_device_memory_bytes", "gauge", "The device's memory in use.",
+               memory.device_bytes);
   out += value("cyanometer_connections", "gauge", "Open connections.", service.connections());
   out +=
       value("cyanometer_ready", "gauge", "1 when requests are taken.", service.ready() ? 1 : 0);

@@ -16,7 +16,7 @@ Answer plan(const json& document, const Request& request, Service& service) {
   const Watch watch = service.watch(request);
   const auto asked = scene_request(document);
   check_frame(asked.scene, service.config);
-  const Plan plan = service.plans.get(asked.scene, asked.canonical, request.peer, watch);
+  const Plan plan = service.plans.get(asked.scene, request.peer, watch).plan;
   return json_answer(plan_document(asked.scene, plan));
 }
 
@@ -34,7 +34,7 @@ json operation() {
                       {"why", text},
                       {"atmosphere", text}}}};
   return {{"responses", openapi::responses(openapi::json_content(schema),
-                                           {400, 408, 411, 413, 415, 422, 503, 504})}};
+                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "server/routes/answers.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
+#include "server/routes/reading.h"
 #include "server/routes/route.h"
 #include "server/routes/scene_request.h"
 
@@ -16,17 +17,15 @@ using nlohmann::json;
 Answer radiance(const Request& request, Service& service) {
   const Watch watch = service.watch(request);
   const auto asked = read_radiance_request(body_document(request));
-  try {
-    check_wavelengths(asked.scene, service.config);
-    Radiances radiances;
+  Radiances radiances;
+  within("/scene", [&] {
+    check_scene(asked.scene, service.config);
     service.queue.run(
         {.client = request.peer, .watch = watch, .work = [&](Engine& engine, const Watch& w) {
            radiances = engine.radiance(asked.scene, asked.directions, asked.irradiance, w);
          }});
-    return json_answer(radiance_document(radiances));
-  } catch (const OverLimit& limit) {
-    throw OverLimit("/scene" + limit.pointer, limit.what());
-  }
+  });
+  return json_answer(radiance_document(radiances));
 }
 
 json operation() {
@@ -67,7 +66,7 @@ json operation() {
           {"properties", {{"direct", list}, {"diffuse_down", list}, {"diffuse_up", list}}}}}}}};
   return {{"requestBody", openapi::json_body(body)},
           {"responses", openapi::responses(openapi::json_content(answer),
-                                           {400, 408, 411, 413, 415, 422, 503, 504})}};
+                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

@@ -29,6 +29,8 @@ const std::vector<Route>& routes();
 // One function a route; each is one line in the table of routes.cpp.
 Route render_post();
 Route render_link();
+Route stream_post();
+Route stream_link();
 Route radiance_post();
 Route plan_post();
 Route plan_link();

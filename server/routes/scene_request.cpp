@@ -1,6 +1,7 @@
 #include "server/routes/scene_request.h"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "engine/engine.h"
 #include "engine/image/encode.h"
@@ -67,17 +68,41 @@ std::size_t frame_bytes(const Scene& scene) {
          static_cast<std::size_t>(image.height);
 }
 
-void check_wavelengths(const Scene& scene, const Config& config) {
+namespace {
+
+/// Each option that multiplies the work of a pixel, with the sun's points.
+void check_samples(const Scene& scene, const Config& config) {
+  double samples = scene.sun.disc_samples;
+  std::string counted;
+  for (const auto& [name, value] : scene.method.options) {
+    if (name != "view_samples" && name != "light_samples" && name != "samples_per_pixel") {
+      continue;
+    }
+    samples *= value;
+    counted = name;
+  }
+  if (counted.empty() || samples <= config.max_samples) return;
+  std::ostringstream text;
+  text.precision(12);
+  text << samples << " samples of a pixel are more than the " << config.max_samples
+       << " of this server";
+  throw OverLimit("/method/" + counted, text.str());
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene, const Config& config) {
   const auto count = scene.spectrum.wavelengths_nm.size();
   if (count > static_cast<std::size_t>(config.max_wavelengths)) {
     throw OverLimit("/spectrum/wavelengths_nm",
                     std::to_string(count) + " wavelengths are more than the " +
                         std::to_string(config.max_wavelengths) + " of this server");
   }
+  check_samples(scene, config);
 }
 
 void check_frame(const Scene& scene, const Config& config) {
-  check_wavelengths(scene, config);
+  check_scene(scene, config);
   const double pixels = static_cast<double>(scene.image.width) * scene.image.height;
   if (pixels > config.max_pixels) {
     throw OverLimit("/image/width", std::to_string(scene.image.width) + " x " +

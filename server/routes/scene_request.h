@@ -31,8 +31,9 @@ nlohmann::json negotiate_format(nlohmann::json document, const Request& request)
 /// Memory of the scene's frame: float planes and displayed pixels.
 std::size_t frame_bytes(const Scene& scene);
 
-/// @throws OverLimit
-void check_wavelengths(const Scene& scene, const Config& config);
+/// Wavelengths and samples. @throws OverLimit
+void check_scene(const Scene& scene, const Config& config);
+/// These, pixels and memory. @throws OverLimit
 void check_frame(const Scene& scene, const Config& config);
 
 }  // namespace cyanometer

@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 Config free_port() {
   Config config;
   config.listen = "127.0.0.1:0";
+  config.warm = false;
   return config;
 }
 
@@ -55,8 +56,8 @@ httplib::Client client() { return client_of(shared_daemon()); }
 nlohmann::json small_scene() { return {{"image", {{"width", 16}, {"height", 8}}}}; }
 
 nlohmann::json long_scene() {
-  return {{"method", {{"name", "nishita"}, {"view_samples", 2000}, {"light_samples", 2000}}},
-          {"image", {{"width", 2048}, {"height", 2048}}}};
+  return {{"method", {{"name", "nishita"}, {"view_samples", 1000}, {"light_samples", 500}}},
+          {"image", {{"width", 512}, {"height", 512}}}};
 }
 
 RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

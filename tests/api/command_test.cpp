@@ -2,18 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <future>
-#include <iterator>
 #include <thread>
 
 #include "server/config.h"
-#include "tests/accuracy/temporary_folder.h"
 #include "tests/api/client.h"
+#include "tests/api/program.h"
 
 namespace cyanometer::testing {
 namespace {
@@ -22,71 +19,10 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// The program stands beside the tests.
-fs::path program() { return fs::read_symlink("/proc/self/exe").parent_path() / "cyanometer"; }
-
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// A run of the program; its output is read when it has ended.
-class Program {
- public:
-  Program(const std::vector<std::string>& arguments, const std::string& input = "") {
-    std::ofstream(folder_ / "in") << input;
-    std::fflush(nullptr);  // or the child writes it once more
-    pid_ = fork();
-    if (pid_ != 0) return;
-    const auto redirect = [&](const char* name, const char* mode, FILE* stream) {
-      if (!freopen((folder_ / name).c_str(), mode, stream)) _exit(99);
-    };
-    redirect("in", "r", stdin);
-    redirect("out", "w", stdout);
-    redirect("err", "w", stderr);
-    std::vector<char*> argv;
-    const std::string path = program();
-    argv.push_back(const_cast<char*>(path.c_str()));
-    for (const auto& each : arguments) argv.push_back(const_cast<char*>(each.c_str()));
-    argv.push_back(nullptr);
-    execv(path.c_str(), argv.data());
-    _exit(98);
-  }
-  ~Program() {
-    if (pid_ > 0) {
-      kill(pid_, SIGKILL);
-      wait();
-    }
-  }
-  int wait() {
-    int status = 0;
-    waitpid(std::exchange(pid_, -1), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  }
-  void signal(int number) const { kill(pid_, number); }
-  std::string out() const { return read_file(folder_ / "out"); }
-  std::string err() const { return read_file(folder_ / "err"); }
-  /// The port of a daemon, once it says it.
-  int port() const {
-    for (int i = 0; i < 2000; ++i) {
-      const auto text = err();
-      const auto at = text.find("\"port\":");
-      if (at != std::string::npos) return std::stoi(text.substr(at + 7));
-      std::this_thread::sleep_for(5ms);
-    }
-    ADD_FAILURE() << err();
-    return 0;
-  }
-
- private:
-  TemporaryFolder folder_;
-  pid_t pid_;
-};
-
 TEST(Command, EveryCommandHelpsWithAnExample) {
   for (const auto* name :
        {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
-        "bench", "chart", "audit", "profile", "compare", "explain"}) {
+        "bench", "chart", "audit", "profile", "load", "compare", "explain"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -206,6 +142,14 @@ TEST(Command, AFileThatIsNotThereIsAFailure) {
   EXPECT_THAT(run.err(), ::testing::HasSubstr("/nowhere.json"));
 }
 
+TEST(Command, AFullDiskIsAFailure) {
+  TemporaryFolder folder;
+  fs::create_symlink("/dev/full", folder / "sky.png");
+  Program run({"render", "-", "-o", folder / "sky.png"}, small_scene().dump());
+  EXPECT_EQ(run.wait(), 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("sky.png"));
+}
+
 TEST(Command, PlanRadianceAndSchemaAnswerAsTheRoutesDo) {
   Program plan({"plan", "-"}, small_scene().dump());
   EXPECT_EQ(plan.wait(), 0) << plan.err();
@@ -298,6 +242,38 @@ TEST(Serve, AnAddressThatIsTakenIsAFailure) {
 TEST(Serve, ADeviceThatIsNotThereIsAFailure) {
   Program run({"serve", "--listen", "127.0.0.1:0", "--device", "no such device"});
   EXPECT_EQ(run.wait(), 1);
+}
+
+TEST(Serve, ADriverThatDoesNotStartIsAFailure) {
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+    setenv(name, "/nowhere.json", 1);
+  }
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  const int ended = run.wait();
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) unsetenv(name);
+  EXPECT_EQ(ended, 1);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("no device to work on"));
+}
+
+/// A log on a full disk is lost; the daemon is not.
+TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
+  int port = 0;
+  {
+    Daemon free(free_port());
+    port = free.port();
+  }
+  Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(port)}, "", "/dev/full");
+  httplib::Client daemon("127.0.0.1", port);
+  daemon.set_read_timeout(60);
+  httplib::Result answer = daemon.Get("/healthz");
+  for (int i = 0; i < 600 && !answer; ++i) {
+    std::this_thread::sleep_for(10ms);
+    answer = daemon.Get("/healthz");
+  }
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(daemon.Post("/v1/render", small_scene().dump(), "application/json")->status, 200);
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.wait(), 0);
 }
 
 TEST(Serve, SettingsComeFromTheEnvironmentAndAreChecked) {

@@ -46,7 +46,7 @@ void wait_for_depth(const RenderQueue& queue, std::size_t depth) {
 }
 
 std::vector<std::string> order_of(const std::vector<std::string>& clients) {
-  RenderQueue queue({});
+  RenderQueue queue({.warm = false});
   std::vector<std::string> order;
   std::vector<std::thread> threads;
   {
@@ -54,7 +54,6 @@ std::vector<std::string> order_of(const std::vector<std::string>& clients) {
     for (std::size_t i = 0; i < clients.size(); ++i) {
       threads.emplace_back([&queue, &order, client = clients[i]] {
         queue.run({.client = client,
-                   .quick = client == "quick",
                    .work = [&](Engine&, const Watch&) { order.push_back(client); }});
       });
       wait_for_depth(queue, i + 1);
@@ -69,12 +68,124 @@ TEST(Queue, ClientsAlternate) {
             (std::vector<std::string>{"a", "b", "c", "a", "a"}));
 }
 
-TEST(Queue, QuickJobsGoFirst) {
-  EXPECT_EQ(order_of({"a", "b", "quick"}), (std::vector<std::string>{"quick", "a", "b"}));
+/// A job that works until it is told that it has done enough, looking up as methods do.
+class Working {
+ public:
+  Working(RenderQueue& queue, double expected_ms) {
+    thread_ = std::thread([this, &queue, expected_ms] {
+      const Ticket ticket = queue.run({.client = "worker",
+                                       .expected_ms = expected_ms,
+                                       .work = [this](Engine&, const Watch& watch) {
+                                         started_.count_down();
+                                         while (!enough_) {
+                                           watch.check();
+                                           std::this_thread::sleep_for(1ms);
+                                         }
+                                       }});
+      given_away_ms_ = ticket.given_away_ms;
+    });
+    started_.wait();
+  }
+  ~Working() { end(); }
+  /// What it gave away to others, ms.
+  double end() {
+    enough_ = true;
+    if (thread_.joinable()) thread_.join();
+    return given_away_ms_;
+  }
+
+ private:
+  std::latch started_{1};
+  std::atomic<bool> enough_{false};
+  double given_away_ms_ = 0;
+  std::thread thread_;
+};
+
+std::future<void> run_later(RenderQueue& queue, double expected_ms,
+                            std::chrono::milliseconds takes = 0ms) {
+  return std::async(std::launch::async, [&queue, expected_ms, takes] {
+    queue.run({.client = "short",
+               .expected_ms = expected_ms,
+               .work = [&](Engine&, const Watch&) { std::this_thread::sleep_for(takes); }});
+  });
+}
+
+TEST(Queue, AShortJobIsDoneWhileALongOneRuns) {
+  RenderQueue queue({.warm = false});
+  Working working(queue, 60000);
+  auto brief = run_later(queue, 100, 50ms);
+  EXPECT_EQ(brief.wait_for(10s), std::future_status::ready);
+  EXPECT_EQ(queue.counts().gave_way, 1u);
+  EXPECT_GE(working.end(), 50);
+}
+
+TEST(Queue, AJobOfTheSameLengthWaits) {
+  RenderQueue queue({.warm = false});
+  Working working(queue, 1000);
+  auto other = run_later(queue, 500), unknown = run_later(queue, 0);
+  EXPECT_EQ(other.wait_for(200ms), std::future_status::timeout);
+  EXPECT_EQ(unknown.wait_for(0ms), std::future_status::timeout);
+  EXPECT_EQ(working.end(), 0);
+}
+
+TEST(Queue, ShortJobsLeaveALongOneItsHalf) {
+  RenderQueue queue({.warm = false});
+  Working working(queue, 1e6);
+  const auto start = Clock::now();
+  std::vector<std::future<void>> brief;
+  for (int i = 0; i < 5; ++i) brief.push_back(run_later(queue, 100, 40ms));
+  for (auto& each : brief) each.wait();
+  // Between five of 40 ms it has four times as long for itself.
+  EXPECT_GE(Clock::now() - start, 9 * 40ms);
+}
+
+TEST(Queue, AJobThatGoesOnKeepsItsPlaceAndIsNotRefused) {
+  RenderQueue queue({.capacity = 1, .warm = false});
+  const auto nothing = [](Engine&, const Watch&) {};
+  const Ticket plan = queue.run({.client = "a", .work = nothing});
+  std::vector<std::string> order;
+  std::vector<std::thread> threads;
+  {
+    Hold hold(queue);
+    const auto add = [&](const std::string& client, std::optional<Place> place) {
+      threads.emplace_back([&queue, &order, client, place] {
+        queue.run({.client = client, .place = place, .work = [&](Engine&, const Watch&) {
+                     order.push_back(client);
+                   }});
+      });
+      wait_for_depth(queue, threads.size());
+    };
+    add("b", std::nullopt);
+    add("a", plan.place);
+  }
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(order, (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Queue, OneClientLeavesPlacesForTheOthers) {
+  RenderQueue queue({.capacity = 4, .warm = false});
+  Hold hold(queue);
+  std::vector<std::future<void>> waiting;
+  for (std::size_t i = 1; i <= queue.share(); ++i) {
+    waiting.push_back(run_later(queue, 0));
+    wait_for_depth(queue, i);
+  }
+  try {
+    queue.run({.client = "short", .work = [](Engine&, const Watch&) {}});
+    ADD_FAILURE() << "one more than its share";
+  } catch (const QueueFull& full) {
+    EXPECT_EQ(full.whose, QueueFull::Whose::client);
+    EXPECT_GE(full.retry_after_s, 1);
+  }
+  auto other = std::async(std::launch::async, [&] {
+    queue.run({.client = "other", .work = [](Engine&, const Watch&) {}});
+  });
+  wait_for_depth(queue, queue.share() + 1);
+  hold.let_go();
 }
 
 TEST(Queue, FramesAliveAreBounded) {
-  RenderQueue queue({.frame_bytes = 100});
+  RenderQueue queue({.frame_bytes = 100, .warm = false});
   const auto job = [](std::size_t bytes) {
     return Job{.client = "a", .frame_bytes = bytes, .work = [](Engine&, const Watch&) {}};
   };
@@ -159,9 +270,12 @@ TEST(Queue, AClientThatLeavesFreesTheDevice) {
 
 TEST(Queue, AClientThatLeavesFreesItsPlace) {
   auto& queue = shared_daemon().service().queue;
+  auto scene = small_scene();
+  scene["sun"] = {{"elevation_deg", 44.5}};
+  client().Post("/v1/plan", scene.dump(), "application/json");
   Hold hold(queue);
   RawClient raw;
-  raw.send(render_request(small_scene()));
+  raw.send(render_request(scene));
   wait_for_depth(queue, 1);
   EXPECT_LT(time_to_notice(queue, raw), 500ms);
   EXPECT_EQ(queue.depth(), 0u);
@@ -182,7 +296,7 @@ TEST(Queue, AKnownLinkIs304WhileTheDeviceWorks) {
 }
 
 TEST(Queue, ALostDeviceIsMadeAgainAndTheJobRetriedOnce) {
-  RenderQueue queue({});
+  RenderQueue queue({.warm = false});
   int attempts = 0;
   queue.run({.client = "a", .work = [&](Engine& engine, const Watch&) {
                if (++attempts == 1) throw DeviceLost("as if");
@@ -194,7 +308,7 @@ TEST(Queue, ALostDeviceIsMadeAgainAndTheJobRetriedOnce) {
 }
 
 TEST(Queue, ADeviceThatIsLostAgainAndAgainEndsTheProcess) {
-  RenderQueue queue({});
+  RenderQueue queue({.warm = false});
   const Job poison{.client = "a",
                    .work = [](Engine&, const Watch&) { throw DeviceLost("no"); }};
   EXPECT_THROW(queue.run(poison), DeviceUnavailable);
@@ -213,7 +327,7 @@ TEST(Queue, ADeviceThatIsNotThereIsSaid) {
 }
 
 TEST(Queue, WhatAJobThrowsReachesItsClient) {
-  RenderQueue queue({});
+  RenderQueue queue({.warm = false});
   EXPECT_THROW(
       queue.run(
           {.client = "a",

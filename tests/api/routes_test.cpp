@@ -538,11 +538,9 @@ TEST(Addresses, UnknownOnesAreNotFound) {
 }
 
 TEST(Addresses, WhatThisVersionLacksSaysSo) {
-  for (const auto* path : {"/v1/stream", "/v1/composite"}) {
-    const auto answer = client().Post(path, "{}", "application/json");
-    expect_problem(answer, 404);
-    EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr("version"));
-  }
+  const auto answer = client().Post("/v1/composite", "{}", "application/json");
+  expect_problem(answer, 404);
+  EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr("version"));
 }
 
 TEST(Addresses, AWrongMethodIsToldTheRightOnes) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "engine/methods/hillaire/sky_tracer.h"
 #include "engine/methods/moments/grid.h"
 #include "engine/methods/moments/tables.h"
+#include "engine/methods/scratch.h"
 #include "spirv/moments.spv.h"
 #include "spirv/moments_add.spv.h"
 #include "spirv/moments_sky.spv.h"
@@ -282,9 +282,9 @@ class Moments final : public Method {
     int all_pieces = most_pieces(scene);
     int pieces =
         std::clamp(usual_loop_iterations / rounds_of_a_piece(scene, view_nodes), 1, all_pieces);
+    Scratch::Loan progress = progress_.take(tracer.device, sizeof(float) * tile.rays);
     std::vector<vulkan::Binding> bindings =
-        scene.bind({tables.series, tables.moments, sky.values, tile.values,
-                    progress_for(tracer.device, tile.rays)});
+        scene.bind({tables.series, tables.moments, sky.values, tile.values, *progress});
     vulkan::Specialization constants = scene.constants();
     constants.push_back(static_cast<std::uint32_t>(settings.degree));
     constants.push_back(tables.particles);
@@ -311,19 +311,11 @@ class Moments final : public Method {
            std::max(scene.media(), 1);
   }
 
-  const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
-    std::size_t bytes = sizeof(float) * rays;
-    if (!progress_ || progress_->size() < bytes) {
-      progress_.emplace(device, bytes, vulkan::Memory::device);
-    }
-    return *progress_;
-  }
-
   MomentSolver solver_;
   vulkan::Kernel sky_rays_, sky_, pixel_, add_;
   hillaire::TableMaker first_order_tables_;
   hillaire::SkyTracer first_order_;
-  std::optional<vulkan::Buffer> progress_;
+  Scratch progress_;
 };
 
 MethodOption whole(std::string name, std::string title, std::string text, double minimum,

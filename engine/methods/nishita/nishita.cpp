@@ -1,7 +1,6 @@
 #include "engine/methods/nishita/nishita.h"
 
-#include <optional>
-
+#include "engine/methods/scratch.h"
 #include "spirv/nishita.spv.h"
 
 namespace cyanometer {
@@ -91,8 +90,9 @@ class Nishita final : public Method {
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     March march = march_of(scene, options);
-    const vulkan::Buffer& columns = columns_for(tracer.device, scene, tile.rays);
-    std::vector<vulkan::Binding> bindings = scene.bind({tile.values, columns});
+    Scratch::Loan columns = columns_.take(
+        tracer.device, sizeof(float) * 2 * std::max(scene.media(), 1) * tile.rays);
+    std::vector<vulkan::Binding> bindings = scene.bind({tile.values, *columns});
     std::int64_t loop_limit = most_light_samples(scene, march);
     Push push{tile.first_ray, tile.rays, march.view, march.light,
               March::nothing(march.suns, march.light)};
@@ -119,18 +119,8 @@ class Nishita final : public Method {
     return samples * std::max(scene.media(), 1);
   }
 
-  /// Columns between two dispatches; kept, because most frames want the same.
-  const vulkan::Buffer& columns_for(vulkan::Device& device, const UploadedScene& scene,
-                                    int rays) {
-    std::size_t bytes = sizeof(float) * 2 * std::max(scene.media(), 1) * rays;
-    if (!columns_ || columns_->size() < bytes) {
-      columns_.emplace(device, bytes, vulkan::Memory::device);
-    }
-    return *columns_;
-  }
-
   vulkan::Kernel kernel_;
-  std::optional<vulkan::Buffer> columns_;
+  Scratch columns_;  ///< between two dispatches
 };
 
 }  // namespace

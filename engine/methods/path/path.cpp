@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/methods/path/guide.h"
 #include "engine/methods/path/light_guide.h"
 #include "engine/methods/raymarch/raymarch.h"
+#include "engine/methods/scratch.h"
 #include "spirv/path.spv.h"
 #include "spirv/path_finish.spv.h"
 
@@ -56,8 +56,7 @@ class PathTracing final : public Method {
   explicit PathTracing(vulkan::Device& device)
       : first_order_(make_raymarch(device)),
         walk_(device, path_spirv, UploadedScene::bindings + 5, sizeof(Push)),
-        finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(Push)),
-        unfinished_(device, sizeof(std::uint32_t), vulkan::Memory::host) {}
+        finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(Push)) {}
 
   const MethodDescription& description() const override { return path_description(); }
 
@@ -92,11 +91,11 @@ class PathTracing final : public Method {
               .steps = 0,
               .seed = static_cast<std::uint32_t>(options.at("seed")),
               .fresh = 1};
-    reserve(tracer.device, scene, push);
-    light_first_order(tracer, scene, tile);
-    if (walks > 0) walk(tracer, scene, push);
+    Workspace work = workspace(tracer.device, scene, push);
+    light_first_order(tracer, scene, tile, *work.coarse);
+    if (walks > 0) walk(tracer, scene, push, work);
     tracer.commands.dispatch(finish_, scene.constants(),
-                             scene.bind({tile.values, *sums_, *coarse_}),
+                             scene.bind({tile.values, *work.sums, *work.coarse}),
                              vulkan::bytes_of(push), {vulkan::groups_for(tile.rays, 64)});
     tracer.submit();
   }
@@ -131,37 +130,36 @@ class PathTracing final : public Method {
     return step;
   }
 
-  void reserve(vulkan::Device& device, const UploadedScene& scene, const Push& push) {
+  struct Workspace {
+    Scratch::Loan walks, counts, sums, coarse, unfinished;
+  };
+
+  Workspace workspace(vulkan::Device& device, const UploadedScene& scene, const Push& push) {
     std::size_t lanes = lanes_of(push), vec4 = 16, groups = scene.groups();
-    auto grow = [&](std::optional<vulkan::Buffer>& buffer, std::size_t bytes) {
-      if (!buffer || buffer->size() < bytes) {
-        buffer.reset();
-        buffer.emplace(device, bytes, vulkan::Memory::device);
-      }
-    };
-    grow(walks_, lanes * vec4 * (2 + groups));
-    grow(counts_, lanes * vec4);
-    grow(sums_, lanes * vec4 * 4 * groups);
-    grow(coarse_, push.rays_in_tile * vec4 * 2 * groups);
+    return {walks_.take(device, lanes * vec4 * (2 + groups)),
+            counts_.take(device, lanes * vec4), sums_.take(device, lanes * vec4 * 4 * groups),
+            coarse_.take(device, push.rays_in_tile * vec4 * 2 * groups),
+            unfinished_.take(device, sizeof(std::uint32_t))};
   }
 
   static MethodOptions first_order(double share) {
     return {{"view_nodes", share * first_order_nodes}};
   }
 
-  /// Into the tile; that of half the nodes into `coarse_`.
-  void light_first_order(Tracer& tracer, const UploadedScene& scene, const Tile& tile) {
+  /// Into the tile; that of half the nodes into `coarse`.
+  void light_first_order(Tracer& tracer, const UploadedScene& scene, const Tile& tile,
+                         const vulkan::Buffer& coarse) {
     std::size_t radiances = std::size_t{2} * scene.groups() * tile.rays * sizeof(glm::vec4);
     first_order_->trace(tracer, scene, first_order(0.5), tile);
-    tracer.commands.copy({tile.values, 0, radiances}, {*coarse_, 0, radiances});
+    tracer.commands.copy({tile.values, 0, radiances}, {coarse, 0, radiances});
     first_order_->trace(tracer, scene, first_order(1), tile);
   }
 
-  void walk(Tracer& tracer, const UploadedScene& scene, Push push) {
+  void walk(Tracer& tracer, const UploadedScene& scene, Push push, const Workspace& work) {
     bool guided = needs_light_guide(scene.problem());
     std::shared_ptr<const Guide> guide = guide_of(tracer, scene, guided);
     std::vector<vulkan::Binding> bindings =
-        scene.bind({guide->buffer, *walks_, *counts_, *sums_, unfinished_});
+        scene.bind({guide->buffer, *work.walks, *work.counts, *work.sums, *work.unfinished});
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
     constants.push_back(guided);
@@ -170,18 +168,17 @@ class PathTracing final : public Method {
     do {
       push.steps = static_cast<int>(
           std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));
-      tracer.commands.fill(unfinished_, 0);
+      tracer.commands.fill(*work.unfinished, 0);
       tracer.commands.dispatch(walk_, constants, bindings, vulkan::bytes_of(push),
                                {vulkan::groups_for(lanes, 64)});
       tracer.pacer.took(cost * push.steps, tracer.submit());
       push.fresh = 0;
-    } while (unfinished_.as<std::uint32_t>()[0] != 0);
+    } while ((*work.unfinished).as<std::uint32_t>()[0] != 0);
   }
 
   std::unique_ptr<Method> first_order_;
   vulkan::Kernel walk_, finish_;
-  std::optional<vulkan::Buffer> walks_, counts_, sums_, coarse_;
-  vulkan::Buffer unfinished_;
+  Scratch walks_, counts_, sums_, coarse_, unfinished_{vulkan::Memory::host};
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "engine/methods/raymarch/raymarch.h"
 
-#include <optional>
-
+#include "engine/methods/scratch.h"
 #include "spirv/raymarch.spv.h"
 
 namespace cyanometer {
@@ -37,8 +36,8 @@ class Raymarch final : public Method {
              const Tile& tile) override {
     int view_nodes = static_cast<int>(options.at("view_nodes"));
     int pieces = march_pieces_at_once(scene, view_nodes);
-    std::vector<vulkan::Binding> bindings =
-        scene.bind({tile.values, progress_for(tracer.device, tile.rays)});
+    Scratch::Loan progress = progress_.take(tracer.device, sizeof(float) * tile.rays);
+    std::vector<vulkan::Binding> bindings = scene.bind({tile.values, *progress});
     for (int sun = 0; sun < scene.disc_points(); ++sun) {
       for (int done = 0; done < most_pieces; done += pieces) {
         bool last = sun + 1 == scene.disc_points() && done + pieces >= most_pieces;
@@ -55,16 +54,8 @@ class Raymarch final : public Method {
     return march_evaluations(media, static_cast<int>(options.at("view_nodes")));
   }
 
-  const vulkan::Buffer& progress_for(vulkan::Device& device, int rays) {
-    std::size_t bytes = sizeof(float) * rays;
-    if (!progress_ || progress_->size() < bytes) {
-      progress_.emplace(device, bytes, vulkan::Memory::device);
-    }
-    return *progress_;
-  }
-
   vulkan::Kernel kernel_;
-  std::optional<vulkan::Buffer> progress_;
+  Scratch progress_;
 };
 
 }  // namespace

@@ -1,0 +1,47 @@
+// Load on a daemon, and what came of it.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cyanometer {
+
+struct LoadSettings {
+  std::string origin = "http://127.0.0.1:8080";
+  int clients = 8;  ///< connections, each with one request at a time
+  /// Requests a second that arrive at random, whether or not earlier ones have been answered
+  /// (an open load); none: each client asks again as soon as it has its answer (a closed one).
+  std::optional<double> rate;
+  double seconds = 10;
+  nlohmann::json scene = nlohmann::json::object();
+  bool vary = true;       ///< every scene another one, so that none has been kept
+  std::size_t first = 0;  ///< number of the first scene: another one, another run
+  std::string token;
+};
+
+struct LoadReport {
+  std::map<int, std::size_t> statuses;  ///< 0: no answer
+  std::vector<double> frame_ms;         ///< of answers 200, from when the request was due
+  std::vector<double> reject_ms;        ///< of answers 429 and 503, from when it was sent
+  std::size_t without_retry_after = 0;  ///< of those
+  std::size_t truncated = 0;            ///< answers 200 that are no whole PNG
+  std::size_t late = 0;                 ///< sent over 10 ms after they were due
+  double seconds = 0;
+  double cpu_s = 0;  ///< of the generator itself
+
+  double frames_per_s() const;
+  std::size_t sent() const;
+};
+
+/// @throws std::runtime_error where nobody answers at the origin
+LoadReport run_load(const LoadSettings& settings);
+
+/// The value below which that share of them lies; 0 of none.
+double quantile(std::vector<double> values, double share);
+
+nlohmann::json load_document(const LoadReport& report);
+
+}  // namespace cyanometer

@@ -1,0 +1,79 @@
+#include "server/queue/frames.h"
+
+#include "engine/image/encode.h"
+
+namespace cyanometer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+Frames::Got Frames::get(const Order& order, const Watch& watch) {
+  if (auto frame = find(order.tag)) return {frame, Origin::kept};
+  const auto landed = flights_.get(order.tag, watch,
+                                   [&](const Watch& shared) { return render(order, shared); });
+  {
+    const std::lock_guard lock(mutex_);
+    ++(landed.joined ? counts_.joined : counts_.rendered);
+  }
+  if (order.keep && !landed.joined) keep(order.tag, landed.value->frame);
+  return {landed.value->frame, landed.joined ? Origin::joined : Origin::rendered,
+          landed.value->memory};
+}
+
+Frames::Flown Frames::render(const Order& order, const Watch& watch) {
+  Frame frame;
+  const Ticket ticket = queue_.run({.client = order.client,
+                                    .expected_ms = order.plan.expected_ms,
+                                    .place = order.place,
+                                    .frame_bytes = order.frame_bytes,
+                                    .watch = watch,
+                                    .work = [&](Engine& engine, const Watch& w) {
+                                      frame = engine.render(order.scene, order.plan, w);
+                                    }});
+  EncodedFrame encoded;
+  const auto start = Clock::now();
+  encoded.bytes = encode(frame, order.scene);
+  encoded.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  encoded.exposure_ev = frame.exposure_ev;
+  encoded.queue_ms = ticket.queued_ms + ticket.given_away_ms;
+  encoded.prepare_ms = frame.prepare_ms;
+  encoded.render_ms = std::max(frame.render_ms - ticket.given_away_ms, 0.0);
+  auto memory = queue_.hold(encoded.bytes.size());
+  return {std::make_shared<const EncodedFrame>(std::move(encoded)), std::move(memory)};
+}
+
+std::shared_ptr<const EncodedFrame> Frames::find(const std::string& tag) {
+  const std::lock_guard lock(mutex_);
+  const auto place = places_.find(tag);
+  if (place == places_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, place->second);
+  ++counts_.kept;
+  return place->second->frame;
+}
+
+void Frames::keep(const std::string& tag, const std::shared_ptr<const EncodedFrame>& frame) {
+  const auto bytes_of = [](const Entry& entry) {
+    constexpr std::size_t places = 256;  // in the list, in the map and on the heap, about
+    return entry.frame->bytes.size() + sizeof(EncodedFrame) + 2 * entry.tag.size() + places;
+  };
+  Entry entry{tag, frame};
+  const std::lock_guard lock(mutex_);
+  if (bytes_of(entry) > most_bytes_ || places_.contains(tag)) return;
+  counts_.kept_bytes += bytes_of(entry);
+  entries_.push_front(std::move(entry));
+  places_[tag] = entries_.begin();
+  while (counts_.kept_bytes > most_bytes_) {
+    counts_.kept_bytes -= bytes_of(entries_.back());
+    places_.erase(entries_.back().tag);
+    entries_.pop_back();
+  }
+}
+
+Frames::Counts Frames::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+}  // namespace cyanometer

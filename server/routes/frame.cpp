@@ -1,0 +1,110 @@
+#include "server/routes/frame.h"
+
+#include <array>
+#include <charconv>
+
+#include "engine/image/encode.h"
+#include "server/routes/json_answer.h"
+
+namespace cyanometer {
+namespace {
+
+std::string fixed(double value) {
+  std::array<char, 400> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value,
+                                     std::chars_format::fixed, 3)
+                           .ptr};
+}
+
+std::string options_text(const std::map<std::string, double>& options) {
+  std::string out;
+  for (const auto& [name, value] : options) {
+    out += (out.empty() ? "" : ";") + name + "=" + shortest(value);
+  }
+  return out;
+}
+
+void check_cost(const Plan& plan, const Config& config) {
+  const double seconds = plan.expected_ms / 1000;
+  if (seconds <= config.max_device_s) return;
+  throw OverLimit("/method", "the frame is expected to take " + fixed(seconds) +
+                                 " s of the device, more than the " +
+                                 shortest(config.max_device_s) + " s of this server");
+}
+
+/// RFC 9211.
+std::string cache_status(Frames::Origin origin) {
+  const std::string name = "cyanometer";
+  if (origin == Frames::Origin::kept) return name + "; hit";
+  return name + (origin == Frames::Origin::joined ? "; fwd=miss; collapsed" : "; fwd=miss");
+}
+
+std::string server_timing(const PlannedFrame& planned, const Frames::Got& got,
+                          Service& service) {
+  const EncodedFrame& frame = *got.frame;
+  const bool kept = got.origin == Frames::Origin::kept;
+  std::string out;
+  const auto add = [&](const std::string& name, double ms) {
+    if (got.origin == Frames::Origin::rendered) service.metrics.stage(name, ms / 1000);
+    out += (out.empty() ? "" : ", ") + name + ";dur=" + fixed(ms);
+  };
+  add("queue", kept ? 0 : frame.queue_ms);
+  add("prepare", planned.plan_ms + (kept ? 0 : frame.prepare_ms));
+  add("render", kept ? 0 : frame.render_ms);
+  add("encode", kept ? 0 : frame.encode_ms);
+  return out;
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service& service) {
+  std::string wavelengths;
+  for (const double l : plan.wavelengths_nm) wavelengths += shortest(l) + ",";
+  const auto device = service.queue.device();
+  return entity_tag({asked.canonical, plan.method, options_text(plan.options), wavelengths,
+                     version(), device.name, device.driver, device.api_version});
+}
+
+PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Service& service,
+                        const Watch& watch) {
+  const auto planned = service.plans.get(asked.scene, client, watch);
+  check_cost(planned.plan, service.config);
+  return {asked, planned.plan, frame_tag(asked, planned.plan, service), planned.ms,
+          planned.place};
+}
+
+Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Service& service,
+                      const Watch& watch, bool keep) {
+  const Scene& scene = planned.asked.scene;
+  return service.frames.get({.scene = scene,
+                             .plan = planned.plan,
+                             .tag = planned.tag,
+                             .client = client,
+                             .frame_bytes = frame_bytes(scene),
+                             .place = planned.place,
+                             .keep = keep && !scene.method.max_ms},
+                            watch);
+}
+
+Fields planned_fields(const PlannedFrame& planned) {
+  const auto& [asked, plan, tag, plan_ms, place] = planned;
+  return {{"Content-Type", std::string(encoding(asked.scene.image.format).media_type)},
+          {"Cyanometer-Method", plan.method},
+          {"Cyanometer-Options", options_text(plan.options)},
+          {"Cyanometer-Error", shortest(plan.expected_error)},
+          {"Cyanometer-Met", plan.met ? "true" : "false"},
+          {"Cyanometer-Atmosphere", atmosphere_key(asked.scene)}};
+}
+
+Fields frame_fields(const PlannedFrame& planned, const Frames::Got& got, Service& service) {
+  return {{"Cyanometer-Exposure", shortest(got.frame->exposure_ev)},
+          {"Server-Timing", server_timing(planned, got, service)},
+          {"Cache-Status", cache_status(got.origin)}};
+}
+
+}  // namespace cyanometer

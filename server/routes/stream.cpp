@@ -1,0 +1,231 @@
+// POST and GET /v1/stream: frames one after the other in one answer.
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "server/current_problem.h"
+#include "server/log.h"
+#include "server/routes/frame.h"
+#include "server/routes/openapi.h"
+#include "server/routes/route.h"
+#include "server/routes/sequence.h"
+#include "server/routes/steady_plans.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+/// Each part's length is known, so that no part can hold what looks like its end.
+const std::string boundary = "frame";
+
+struct Part {
+  std::string head;
+  Frames::Got frame;
+  bool last = false;
+};
+
+/// A stream while it is sent, on its connection's own thread: the next frame is begun when the
+/// last one has been taken, so that a slow reader slows itself alone.
+class Stream {
+ public:
+  Stream(Request request, Service& service, Sequence sequence)
+      : request_(std::move(request)),
+        service_(service),
+        sequence_(std::move(sequence)),
+        plans_(service, request_.peer) {}
+
+  /// Makes the first part, so that what hinders it is answered as everywhere.
+  void start(const Watch& watch) {
+    if (sequence_.refines) {
+      aim_ = plan_frame(sequence_.scene(sequence_.count - 1), request_.peer, service_, watch);
+    }
+    first_ = next(watch);
+  }
+
+  void send(const Write& write) {
+    const auto begin = Clock::now();
+    const bool whole = send_all([&](std::string_view bytes) {
+      bytes_ += bytes.size();
+      return write(bytes);
+    });
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    log_line(spdlog::level::info, {{"event", "stream ended"},
+                                   {"id", request_.id},
+                                   {"whole", whole},
+                                   {"frames", sent_},
+                                   {"ms", ms},
+                                   {"bytes", bytes_}});
+  }
+
+ private:
+  bool send_all(const Write& write) {
+    if (!write("--" + boundary + "\r\n")) return false;
+    Part part = *std::exchange(first_, std::nullopt);
+    for (;;) {
+      if (!send_part(write, part)) return false;
+      if (part.last) return true;
+      part.frame = {};  // so that it is not held while the next is made
+      try {
+        part = patiently();
+      } catch (...) {
+        send_problem(write, current_problem());
+        return false;
+      }
+    }
+  }
+
+  bool send_part(const Write& write, const Part& part) {
+    // The boundary follows at once: browsers show a part when they have seen its end.
+    const std::string end = "\r\n--" + boundary + (part.last ? "--\r\n" : "\r\n");
+    const bool taken = write(part.head) && write(part.frame.frame->bytes) && write(end);
+    sent_ += taken;
+    return taken;
+  }
+
+  /// In place of the frames that are missing; nobody reads it where the client has left.
+  void send_problem(const Write& write, const HttpProblem& problem) const {
+    const std::string body = problem_json(problem, request_.id);
+    write("Content-Type: application/problem+json\r\nContent-Length: " +
+          std::to_string(body.size()) + "\r\n\r\n" + body + "\r\n--" + boundary + "--\r\n");
+  }
+
+  /// The next part; a stream that has begun waits where a new request would be turned away.
+  Part patiently() {
+    const Watch watch = service_.watch(request_);
+    for (const int place = next_;; next_ = place) {
+      try {
+        return next(watch);
+      } catch (const QueueFull&) {
+        watch.check();
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      }
+    }
+  }
+
+  Part next(const Watch& watch) {
+    PlannedFrame planned = next_plan(watch);
+    const bool last = next_ == sequence_.count;
+    const auto got = get_frame(planned, request_.peer, service_, watch, last);
+    shown_ = planned.plan;
+    Fields fields = planned_fields(planned);
+    fields.emplace_back("Content-Length", std::to_string(got.frame->bytes.size()));
+    fields.emplace_back("Cyanometer-Frame",
+                        std::to_string(next_) + "/" + std::to_string(sequence_.count));
+    for (auto& field : frame_fields(planned, got, service_)) fields.push_back(std::move(field));
+    std::string head;
+    for (const auto& [name, value] : fields) head += name + ": " + value + "\r\n";
+    return {head + "\r\n", got, last};
+  }
+
+  /// Leaves `next_` behind the frame.
+  PlannedFrame next_plan(const Watch& watch) {
+    while (sequence_.refines && next_ + 1 < sequence_.count) {
+      PlannedFrame coarse =
+          plan_frame(sequence_.scene(next_++), request_.peer, service_, watch);
+      const bool again =
+          coarse.plan.method == shown_.method && coarse.plan.options == shown_.options;
+      const bool worth = coarse.plan.expected_ms <= aim_->plan.expected_ms / 2 &&
+                         coarse.plan.expected_error > aim_->plan.expected_error;
+      if (again || !worth) continue;
+      return coarse;
+    }
+    const int place = next_++;
+    return sequence_.refines ? *aim_ : plans_.next(sequence_.scene(place), watch);
+  }
+
+  Request request_;
+  Service& service_;
+  Sequence sequence_;
+  SteadyPlans plans_;
+  std::optional<PlannedFrame> aim_;  ///< of a refinement
+  Plan shown_;                       ///< of the frame before
+  std::optional<Part> first_;
+  int next_ = 0;
+  int sent_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+Answer stream(Sequence sequence, const Request& request, Service& service, const Watch& watch) {
+  Answer answer;
+  answer.headers = {{"Content-Type", "multipart/x-mixed-replace; boundary=" + boundary},
+                    {"Cache-Control", "no-store"}};
+  if (request.method == "HEAD") {
+    answer.length_known = false;
+    return answer;
+  }
+  const auto stream = std::make_shared<Stream>(request, service, std::move(sequence));
+  stream->start(watch);
+  answer.stream = [stream](const Write& write) { stream->send(write); };
+  return answer;
+}
+
+json operation() {
+  const json content{
+      {"multipart/x-mixed-replace", {{"schema", {{"type", "string"}, {"format", "binary"}}}}}};
+  json responses =
+      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
+  responses["200"]["description"] =
+      "Frames, each with Cyanometer-Frame (3/120), Cyanometer-Error and what else a rendered "
+      "answer says of itself. Where one cannot be made, a part of application/problem+json "
+      "ends the stream. Closing the connection cancels the work.";
+  return {{"responses", responses}};
+}
+
+json body_schema() {
+  const json scene = openapi::scene_schema_reference();
+  return {{"type", "object"},
+          {"properties",
+           {{"scene", scene},
+            {"frames",
+             {{"type", "array"},
+              {"minItems", 1},
+              {"description", "Merge patches of the scene, one a frame."},
+              {"items", {{"type", "object"}}}}},
+            {"refine",
+             {{"const", true}, {"description", "Coarser frames first, then the scene's."}}}}},
+          {"oneOf", {{{"required", {"frames"}}}, {{"required", {"refine"}}}}},
+          {"additionalProperties", false}};
+}
+
+json parameter(const std::string& name, const json& schema, const std::string& description) {
+  return {{"name", name}, {"in", "query"}, {"schema", schema}, {"description", description}};
+}
+
+}  // namespace
+
+Route stream_post() {
+  return {"POST", "/v1/stream", "Frames of a sequence, or a frame ever finer",
+          [] {
+            json out = operation();
+            out["requestBody"] = openapi::json_body(body_schema());
+            return out;
+          },
+          [](const Request& request, Service& service) {
+            const Watch watch = service.watch(request);
+            return stream(sequence_of_body(request, service.config, watch), request, service,
+                          watch);
+          }};
+}
+
+Route stream_link() {
+  return {"GET", "/v1/stream", "The same for links and <img>",
+          [] {
+            json out = operation();
+            out["parameters"] = openapi::link_parameters();
+            out["parameters"].push_back(
+                parameter("frames", {{"type", "integer"}, {"minimum", 1}},
+                          "Frames over which each `to.PATH=number`, as "
+                          "`to.sun.elevation_deg=-6`, is reached linearly."));
+            out["parameters"].push_back(
+                parameter("refine", {{"const", true}}, "Coarser frames first."));
+            return out;
+          },
+          [](const Request& request, Service& service) {
+            const Watch watch = service.watch(request);
+            return stream(sequence_of_link(request, service.config, watch), request, service,
+                          watch);
+          }};
+}
+
+}  // namespace cyanometer

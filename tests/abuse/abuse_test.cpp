@@ -1,0 +1,278 @@
+// Laws of a daemon under abuse; the figures are printed.
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <sys/resource.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+#include "server/load/load.h"
+#include "tests/abuse/crowd.h"
+#include "tests/api/program.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+int number_from_environment(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+/// A daemon in a process of its own, ready.
+struct Served {
+  explicit Served(const std::string& cache_mb = "256")
+      : run({"serve", "--listen", "127.0.0.1:0", "--ops-listen", "127.0.0.1:0", "--cache-mb",
+             cache_mb}),
+        port(run.port()),
+        ops_port(run.port("ops_port")) {
+    for (int i = 0; i < 6000 && !ready(); ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_TRUE(ready()) << run.err();
+  }
+  httplib::Client client() const {
+    httplib::Client made("127.0.0.1", port);
+    made.set_tcp_nodelay(true);
+    made.set_read_timeout(60);
+    return made;
+  }
+  bool ready() const {
+    const auto answer = httplib::Client("127.0.0.1", ops_port).Get("/readyz");
+    return answer && answer->status == 200;
+  }
+  std::string origin() const { return "http://127.0.0.1:" + std::to_string(port); }
+  double metric(const std::string& name) const {
+    const auto text = httplib::Client("127.0.0.1", ops_port).Get("/metrics")->body;
+    const auto at = text.find("\n" + name + " ");
+    return at == std::string::npos ? -1 : std::stod(text.substr(at + name.size() + 2));
+  }
+  double resident_mib() const {
+    std::ifstream in("/proc/" + std::to_string(run.pid()) + "/statm");
+    double total = 0, resident = 0;
+    in >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576;
+  }
+  /// The fewest of a second: connections that are just closing do not count.
+  std::size_t open_files() const {
+    const std::filesystem::path folder = "/proc/" + std::to_string(run.pid()) + "/fd";
+    std::ptrdiff_t fewest = 1 << 20;
+    for (int i = 0; i < 10; ++i) {
+      std::this_thread::sleep_for(100ms);
+      fewest = std::min(fewest, std::distance(std::filesystem::directory_iterator(folder), {}));
+    }
+    return static_cast<std::size_t>(fewest);
+  }
+
+  Program run;
+  int port, ops_port;
+};
+
+json tiny_scene() { return {{"image", {{"width", 64}, {"height", 36}}}}; }
+
+/// Other scenes each time, so that none has been kept.
+LoadReport load(LoadSettings& settings) {
+  LoadReport report = run_load(settings);
+  settings.first += report.sent();
+  return report;
+}
+
+TEST(Abuse, Overload) {
+  Served served;
+  LoadSettings settings;
+  settings.origin = served.origin();
+  settings.scene = tiny_scene();
+  const auto peak = [&](double seconds) {
+    settings.clients = 16;
+    settings.rate.reset();
+    settings.seconds = seconds;
+    return load(settings).frames_per_s();
+  };
+  peak(5);  // plans, pipelines, the pacer
+  const double peak_before = peak(10);
+  settings.rate = 10 * peak_before;
+  settings.clients = 450;
+  settings.seconds = 20;
+  const LoadReport over = load(settings);
+  const double peak_after = peak(10);
+  std::printf("peak %.1f and %.1f frames a second; at ten times the first:\n%s\n", peak_before,
+              peak_after, load_document(over).dump(1).c_str());
+  for (const auto& [status, count] : over.statuses) {
+    EXPECT_TRUE(status == 200 || status == 429 || status == 503) << status << ": " << count;
+  }
+  EXPECT_EQ(over.truncated, 0u);
+  EXPECT_EQ(over.without_retry_after, 0u);
+  EXPECT_FALSE(over.reject_ms.empty());
+  EXPECT_LT(quantile(over.reject_ms, 0.99), 10);
+  EXPECT_GE(over.frames_per_s(), 0.95 * std::min(peak_before, peak_after));
+}
+
+/// Probes while something goes on; the worst times of 200.
+std::vector<double> probe(const Served& served) {
+  std::vector<double> times;
+  for (int i = 0; i < 200; ++i) {
+    const auto start = Clock::now();
+    const auto answer = httplib::Client("127.0.0.1", served.ops_port).Get("/healthz");
+    EXPECT_TRUE(answer && answer->status == 200);
+    times.push_back(ms_since(start));
+    std::this_thread::sleep_for(20ms);
+  }
+  return times;
+}
+
+TEST(Abuse, ConnectionsThatDoNothingOrLittle) {
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+  Served served;
+  ASSERT_EQ(served.client().Post("/v1/render", tiny_scene().dump(), "application/json")->status,
+            200);
+  // 12 MB each: far more than the buffers between here and there hold.
+  const std::string large =
+      "GET /v1/render?image.width=1024&image.height=1024&image.format=npy&method.name=raymarch"
+      "&method.view_nodes=1 HTTP/1.1\r\nHost: h\r\n\r\n";
+  const auto begin = Clock::now();
+  Crowd readers(served.port, 200, 4096);
+  readers.send(large);
+  Crowd drips(served.port, 1000), idle(served.port, 5000);
+  std::atomic<bool> done = false;
+  std::thread dripping([&] {
+    for (int i = 0; !done; ++i) {
+      drips.send(std::string(1, "GET /healthz HTTP/1.1\r\n"[i % 23]));
+      std::this_thread::sleep_for(1s);
+    }
+  });
+  const auto times = probe(served);
+  std::printf("%zu slow readers, %zu dripping, %zu idle: probes p50 %.2f ms, worst %.2f ms\n",
+              readers.size(), drips.size(), idle.size(), quantile(times, 0.5),
+              quantile(times, 1));
+  EXPECT_EQ(readers.size() + drips.size() + idle.size(), 6200u);
+  EXPECT_LT(quantile(times, 1), 50);
+  EXPECT_LT(ms_since(begin), 60000);
+  done = true;
+  dripping.join();
+  readers.leave();
+  drips.leave();
+  idle.leave();
+  const auto left = Clock::now();
+  int status = 0;
+  while (status != 200 && ms_since(left) < 10000) {
+    const auto answer =
+        served.client().Post("/v1/render", tiny_scene().dump(), "application/json");
+    status = answer ? answer->status : 0;
+  }
+  std::printf("whole again %.0f ms after they left\n", ms_since(left));
+  EXPECT_EQ(status, 200);
+  EXPECT_LT(ms_since(left), 1000);
+}
+
+/// Everything that came on one connection after a request, to its end.
+std::string ask_once(int port, const std::string& request) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int one = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  std::string all;
+  if (::connect(one, reinterpret_cast<sockaddr*>(&address), sizeof(address)) == 0) {
+    (void)!::send(one, request.data(), request.size(), MSG_NOSIGNAL);
+    char chunk[16384];
+    for (ssize_t got; (got = ::recv(one, chunk, sizeof(chunk), 0)) > 0;) {
+      all.append(chunk, static_cast<std::size_t>(got));
+    }
+  }
+  ::close(one);
+  return all;
+}
+
+/// No answer at all is none that was truncated.
+bool is_whole_answer(const std::string& answer) {
+  if (answer.empty()) return true;
+  const auto head = answer.find("\r\n\r\n");
+  const auto length = answer.find("Content-Length: ");
+  if (head == std::string::npos || length == std::string::npos || length > head) return false;
+  return answer.size() == head + 4 + std::stoul(answer.substr(length + 16));
+}
+
+TEST(Abuse, StoppedInTheMiddle) {
+  const int stops = number_from_environment("CYANOMETER_STOPS", 50);
+  std::mt19937 random(1);
+  int whole = 0, frames = 0, none = 0, truncated = 0;
+  for (int stop = 0; stop < stops; ++stop) {
+    Served served;
+    std::atomic<bool> done = false;
+    std::atomic<int> i = 1000 * stop;
+    std::vector<std::thread> clients;
+    std::mutex mutex;
+    for (int c = 0; c < 8; ++c) {
+      clients.emplace_back([&] {
+        while (!done) {
+          json scene{{"image", {{"width", 320}, {"height", 180}}}};
+          scene["image"]["exposure_ev"] = 1e-6 * ++i;
+          const std::string body = scene.dump();
+          const auto answer =
+              ask_once(served.port,
+                       "POST /v1/render HTTP/1.1\r\nHost: h\r\nConnection: close\r\n"
+                       "Content-Length: " +
+                           std::to_string(body.size()) + "\r\n\r\n" + body);
+          const std::lock_guard lock(mutex);
+          const bool sound = is_whole_answer(answer);
+          truncated += !sound;
+          none += answer.empty();
+          whole += sound && !answer.empty();
+          frames += answer.starts_with("HTTP/1.1 200");
+          if (answer.empty()) break;
+        }
+      });
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(300 + random() % 700));
+    served.run.signal(SIGTERM);
+    EXPECT_EQ(served.run.wait(), 0);
+    done = true;
+    for (auto& each : clients) each.join();
+  }
+  std::printf("%d stops: %d whole answers, %d of them frames; %d truncated; %d not begun\n",
+              stops, whole, frames, truncated, none);
+  EXPECT_EQ(truncated, 0);
+  EXPECT_GT(frames, stops);
+}
+
+TEST(Abuse, Soak) {
+  const double renders = number_from_environment("CYANOMETER_RENDERS", 100000);
+  Served served("16");  // full of frames after a tenth: what it keeps grows no more
+  LoadSettings settings;
+  settings.origin = served.origin();
+  settings.clients = 4;
+  settings.seconds = 5;
+  settings.scene = {{"image", {{"width", 16}, {"height", 9}}},
+                    {"method", {{"name", "raymarch"}, {"view_nodes", 2}}}};
+  settings.scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
+  const std::string count = "cyanometer_frames_rendered_total";
+  while (served.metric(count) < 0.1 * renders) load(settings);
+  std::this_thread::sleep_for(1s);  // the last connections are closed
+  const double resident = served.resident_mib();
+  const double device = served.metric("cyanometer_device_memory_bytes");
+  const auto files = served.open_files();
+  while (served.metric(count) < renders) load(settings);
+  std::this_thread::sleep_for(1s);
+  std::printf(
+      "%.0f renders: resident %.1f MiB after a tenth, %.1f at the end; device memory "
+      "%.0f and %.0f bytes; open files %zu and %zu\n",
+      served.metric(count), resident, served.resident_mib(), device,
+      served.metric("cyanometer_device_memory_bytes"), files, served.open_files());
+  EXPECT_NEAR(served.resident_mib(), resident, 0.02 * resident);
+  EXPECT_EQ(served.metric("cyanometer_device_memory_bytes"), device);
+  EXPECT_EQ(served.open_files(), files);
+}
+
+}  // namespace
+}  // namespace cyanometer::testing

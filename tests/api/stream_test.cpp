@@ -1,0 +1,306 @@
+// /v1/stream: frames in their order, each saying which it is and how wrong; readers that are
+// slow or leave; refusals before the first frame.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <future>
+
+#include "engine/scene/document.h"
+#include "server/routes/steady_plans.h"
+#include "tests/api/client.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+const std::string tiny = "image.width=16&image.height=8&method.name=raymarch";
+
+struct Part {
+  std::string head, body;
+  std::string field(const std::string& name) const {
+    const auto at = head.find(name + ": ");
+    if (at == std::string::npos) return "";
+    const auto begin = at + name.size() + 2;
+    return head.substr(begin, head.find("\r\n", begin) - begin);
+  }
+};
+
+/// The parts of a body, which must be well formed to its closing boundary.
+std::vector<Part> parts_of(const std::string& body) {
+  std::vector<Part> parts;
+  std::size_t at = 0;
+  const auto skip = [&](const std::string& text) {
+    EXPECT_EQ(body.substr(at, text.size()), text);
+    at += text.size();
+  };
+  skip("--frame");
+  while (at + 2 < body.size() && body.compare(at, 2, "--") != 0) {
+    skip("\r\n");
+    const auto end = body.find("\r\n\r\n", at);
+    if (end == std::string::npos) break;
+    Part part{body.substr(at, end + 2 - at), ""};
+    at = end + 4;
+    const auto length = part.field("Content-Length");
+    if (length.empty()) break;
+    part.body = body.substr(at, std::stoul(length));
+    at += part.body.size();
+    parts.push_back(part);
+    skip("\r\n--frame");
+  }
+  skip("--\r\n");
+  EXPECT_EQ(at, body.size());
+  return parts;
+}
+
+httplib::Result get(const std::string& query, const httplib::Headers& headers = {}) {
+  return client().Get("/v1/stream?" + query, headers);
+}
+
+httplib::Result post(const json& body, const httplib::Headers& headers = {}) {
+  return client().Post("/v1/stream", headers, body.dump(), "application/json");
+}
+
+json tiny_scene() {
+  return {{"image", {{"width", 16}, {"height", 8}}}, {"method", {{"name", "raymarch"}}}};
+}
+
+TEST(Stream, ASweepIsTheFramesOfItsScenes) {
+  const auto answer = get(tiny + "&frames=5&to.sun.elevation_deg=-6&sun.elevation_deg=2");
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  EXPECT_THAT(answer->get_header_value("Content-Type"),
+              ::testing::StartsWith("multipart/x-mixed-replace; boundary="));
+  EXPECT_EQ(answer->get_header_value("Cache-Control"), "no-store");
+  const auto parts = parts_of(answer->body);
+  ASSERT_EQ(parts.size(), 5u);
+  for (int i = 0; i < 5; ++i) {
+    const auto& part = parts[static_cast<std::size_t>(i)];
+    EXPECT_EQ(part.field("Cyanometer-Frame"), std::to_string(i + 1) + "/5");
+    EXPECT_EQ(part.field("Content-Type"), "image/png");
+    EXPECT_GE(std::stod(part.field("Cyanometer-Error")), 0);
+    EXPECT_FALSE(part.field("Server-Timing").empty());
+    json scene = tiny_scene();
+    scene["sun"] = {{"elevation_deg", 2 - 2 * i}};
+    EXPECT_EQ(part.body, client().Post("/v1/render", scene.dump(), "application/json")->body);
+  }
+}
+
+TEST(Stream, ASweepStartsAtWhatTheSceneHas) {
+  const auto parts = parts_of(get(tiny + "&frames=2&to.sun.elevation_deg=10")->body);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].body,
+            client().Post("/v1/render", tiny_scene().dump(), "application/json")->body);
+}
+
+TEST(Stream, FramesAreMergedIntoTheScene) {
+  const json patches{json::object(), {{"sun", {{"elevation_deg", 5}}}}, {{"preset", "mars"}}};
+  const auto answer = post({{"scene", tiny_scene()}, {"frames", patches}});
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  const auto parts = parts_of(answer->body);
+  ASSERT_EQ(parts.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json scene = merge(tiny_scene(), patches[i]);
+    EXPECT_EQ(parts[i].body,
+              client().Post("/v1/render", scene.dump(), "application/json")->body)
+        << i;
+  }
+}
+
+TEST(Stream, ARefinementGetsBetterAndEndsWithTheScene) {
+  json scene = small_scene();
+  scene["method"] = {{"name", "path"}, {"samples_per_pixel", 64}};
+  for (const auto& answer :
+       {post({{"scene", scene}, {"refine", true}}),
+        get("image.width=16&image.height=8&method.name=path&method.samples_per_pixel=64"
+            "&refine=true")}) {
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->status, 200) << answer->body;
+    const auto parts = parts_of(answer->body);
+    ASSERT_EQ(parts.size(), 4u);
+    double before = 2;
+    for (const auto& part : parts) {
+      const double error = std::stod(part.field("Cyanometer-Error"));
+      EXPECT_LT(error, before);
+      before = error;
+    }
+    EXPECT_EQ(parts.back().field("Cyanometer-Frame"), "4/4");
+    EXPECT_EQ(parts.back().body,
+              client().Post("/v1/render", scene.dump(), "application/json")->body);
+  }
+}
+
+TEST(Stream, ARefinementOfAutoEndsWithTheScene) {
+  const auto answer = get("image.width=64&image.height=36&refine=true");
+  ASSERT_TRUE(answer);
+  const auto parts = parts_of(answer->body);
+  ASSERT_FALSE(parts.empty());
+  EXPECT_EQ(parts.back().field("Cyanometer-Frame"), "4/4");
+  EXPECT_EQ(parts.back().body, client().Get("/v1/render?image.width=64&image.height=36")->body);
+}
+
+TEST(Stream, PicturesAreWhatImgTakes) {
+  for (const auto* accept : {"image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8",
+                             "multipart/x-mixed-replace", "*/*"}) {
+    const auto answer = get(tiny + "&frames=1&to.sun.elevation_deg=1", {{"Accept", accept}});
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->status, 200) << answer->body;
+    EXPECT_EQ(parts_of(answer->body).at(0).field("Content-Type"), "image/png") << accept;
+  }
+  const auto jpeg = get(tiny + "&image.format=jpeg&frames=1&to.sun.elevation_deg=1");
+  EXPECT_EQ(parts_of(jpeg->body).at(0).field("Content-Type"), "image/jpeg");
+}
+
+TEST(Stream, LinksAreReadStrictly) {
+  for (const auto& [query, pointer] : std::vector<std::pair<std::string, std::string>>{
+           {"", ""},
+           {"frames=3&refine=true&to.sun.elevation_deg=1", ""},
+           {"frames=3", "/to"},
+           {"frames=0&to.sun.elevation_deg=1", "/frames"},
+           {"frames=2.5&to.sun.elevation_deg=1", "/frames"},
+           {"frames=x&to.sun.elevation_deg=1", "/frames"},
+           {"frames=3&frames=3&to.sun.elevation_deg=1", "/frames"},
+           {"refine=1", "/refine"},
+           {"refine=true&to.sun.elevation_deg=1", "/to.sun.elevation_deg"},
+           {"frames=3&to.sun.elevation_deg=up", "/to.sun.elevation_deg"},
+           {"frames=3&to.sun.elevation_deg=1e400", "/to.sun.elevation_deg"},
+           {"frames=3&to.sun.elevation_deg=1&to.sun.elevation_deg=2", "/to.sun.elevation_deg"},
+           {"frames=3&to.sun.height=1", "/to.sun.height"},
+           {"frames=3&to.image.format=1", "/to.image.format"},
+           {"frames=3&to.=1", "/to."},
+           {"frames=3&to.sun.elevation_deg=100", "/sun/elevation_deg"},
+           {"frames=3&to.sun.elevation_deg=1&planet.radius_km=-1", "/planet/radius_km"}}) {
+    const auto answer = get(query);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 400) << query << answer->body;
+    EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << query;
+  }
+  EXPECT_EQ(get("frames=3601&to.sun.elevation_deg=1")->status, 422);
+  EXPECT_EQ(get("frames=1e300&to.sun.elevation_deg=1")->status, 400);
+}
+
+TEST(Stream, BodiesAreReadStrictly) {
+  const json low{{"sun", {{"elevation_deg", -100}}}};
+  const json wide{{"image", {{"width", 8192}, {"height", 4096}}}};
+  for (const auto& [body, status, pointer] : std::vector<std::tuple<json, int, std::string>>{
+           {json::object(), 400, ""},
+           {json::array(), 400, ""},
+           {{{"frames", json::array()}}, 400, "/frames"},
+           {{{"frames", {3}}}, 400, "/frames/0"},
+           {{{"refine", false}}, 400, "/refine"},
+           {{{"refine", true}, {"more", 1}}, 400, "/more"},
+           {{{"scene", 3}, {"refine", true}}, 400, "/scene"},
+           {{{"scene", low}, {"refine", true}}, 400, "/scene/sun/elevation_deg"},
+           {{{"scene", low}, {"frames", {json::object()}}}, 400, "/scene/sun/elevation_deg"},
+           {{{"frames", {json::object(), low}}}, 400, "/frames/1/sun/elevation_deg"},
+           {{{"frames", {json::object(), wide}}}, 422, "/frames/1/image/width"},
+           {{{"scene", wide}, {"refine", true}}, 422, "/scene/image/width"}}) {
+    const auto answer = post(body);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, status) << body << answer->body;
+    EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << body;
+  }
+}
+
+TEST(Stream, HeadSaysTheTypeAlone) {
+  const auto head = client().Head("/v1/stream?refine=true");
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->status, 200);
+  EXPECT_THAT(head->get_header_value("Content-Type"),
+              ::testing::StartsWith("multipart/x-mixed-replace"));
+}
+
+std::string stream_request(const std::string& query) {
+  return "GET /v1/stream?" + query + " HTTP/1.1\r\nHost: h\r\n\r\n";
+}
+
+TEST(Stream, AReaderThatLeavesCancelsTheRest) {
+  auto& queue = shared_daemon().service().queue;
+  const auto before = queue.counts();
+  RawClient raw;
+  raw.send(
+      stream_request("image.width=320&image.height=180&method.name=nishita"
+                     "&method.view_samples=200&frames=1000&to.sun.elevation_deg=60"));
+  std::string answer;
+  while (answer.find("Cyanometer-Frame: 1/1000") == std::string::npos) {
+    const auto more = raw.receive(10ms);
+    answer += more;
+  }
+  raw.close();
+  std::this_thread::sleep_for(1s);
+  const auto then = queue.counts().done;
+  std::this_thread::sleep_for(1s);
+  EXPECT_EQ(queue.counts().done, then);
+  EXPECT_LT(then - before.done, 900u);
+}
+
+TEST(Stream, AReaderThatDoesNotReadHoldsUpItselfAlone) {
+  auto& queue = shared_daemon().service().queue;
+  RawClient slow;
+  // Of 3 MB each: two or three fill the buffers between here and there.
+  slow.send(
+      stream_request("image.width=512&image.height=512&image.format=npy"
+                     "&method.name=raymarch&method.view_nodes=1&frames=300"
+                     "&to.sun.elevation_deg=60"));
+  std::uint64_t done = 0;
+  for (int still = 0; still < 10; ++still) {
+    std::this_thread::sleep_for(200ms);
+    if (queue.counts().done != done) still = 0;
+    done = queue.counts().done;
+  }
+  const auto answer = client().Post("/v1/render", tiny_scene().dump(), "application/json");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(queue.depth(), 0u);
+}
+
+TEST(Stream, StoppingFinishesIt) {
+  Daemon daemon(free_port());
+  daemon.start();
+  wait_until_ready(daemon);
+  auto answer = std::async(std::launch::async, [&] {
+    return client_of(daemon).Get("/v1/stream?" + tiny + "&frames=40&to.sun.elevation_deg=60");
+  });
+  std::this_thread::sleep_for(100ms);
+  daemon.stop();
+  const auto finished = answer.get();
+  ASSERT_TRUE(finished);
+  EXPECT_EQ(parts_of(finished->body).size(), 40u);
+}
+
+/// Two choices that alternate as the sun moves: along a stream the first is kept while it does.
+TEST(Stream, AMethodIsKeptWhileItDoes) {
+  auto& service = shared_daemon().service();
+  const auto changes = [&](auto plan_of) {
+    std::string before;
+    int found = 0;
+    for (int i = 0; i <= 16; ++i) {
+      json scene = small_scene();
+      scene["sun"] = {{"elevation_deg", 24 - 2 * i}};
+      scene["method"] = {{"max_error", 0.1}};
+      const Scene read = read_scene(scene);
+      const Plan plan = plan_of(SceneRequest{read, canonical(read).dump()});
+      EXPECT_LE(plan.expected_error, 0.1) << i;
+      std::string choice = plan.method;
+      for (const auto& [name, value] : plan.options) choice += name + std::to_string(value);
+      found += !before.empty() && choice != before;
+      before = choice;
+    }
+    return found;
+  };
+  SteadyPlans steady(service, "test");
+  const int each_alone = changes(
+      [&](const SceneRequest& asked) { return plan_frame(asked, "test", service, {}).plan; });
+  const int along =
+      changes([&](const SceneRequest& asked) { return steady.next(asked, {}).plan; });
+  RecordProperty("alone", each_alone);
+  RecordProperty("along", along);
+  EXPECT_GE(each_alone, 1);
+  EXPECT_LT(along, std::max(each_alone, 2));
+}
+
+}  // namespace
+}  // namespace cyanometer::testing

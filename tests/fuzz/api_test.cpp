@@ -1,0 +1,201 @@
+// Whatever is sent, the daemon answers as its own OpenAPI document says, never with 5xx, and
+// goes on. The operations and what they take are read from the daemon. The number of cases is
+// CYANOMETER_FUZZ_CASES, the first of them CYANOMETER_FUZZ_FIRST; each is a function of its
+// number.
+#include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <map>
+#include <thread>
+
+#include "engine/scene/document.h"
+#include "server/daemon.h"
+#include "tests/fuzz/hostile.h"
+#include "tests/scene/random_document.h"
+
+namespace cyanometer::testing {
+namespace {
+
+using nlohmann::json;
+
+struct Operation {
+  std::string method, path;
+  json description;
+};
+
+struct Case {
+  std::string method, target, body;
+  httplib::Headers headers;
+};
+
+class ApiFuzzer {
+ public:
+  ApiFuzzer(const json& openapi, const json& scene_schema)
+      : openapi_(openapi), scene_schema_(scene_schema) {
+    for (const auto& [path, operations] : openapi.at("paths").items()) {
+      for (const auto& [method, operation] : operations.items()) {
+        operations_.push_back({method == "get" ? "GET" : "POST", path, operation});
+      }
+    }
+  }
+
+  std::pair<Operation, Case> make(unsigned number) {
+    Hostile hostile(number);
+    const Operation& operation = hostile.one_of(operations_);
+    Case made{operation.method, operation.path, "", {}};
+    if (operation.description.contains("parameters") &&
+        (operation.method == "GET" || hostile.chance(0.2))) {
+      made.target += "?" + query(hostile, number, operation.path == "/v1/stream");
+    }
+    if (operation.method == "POST") made.body = body(operation, hostile, number);
+    for (const char* name : {"Accept", "If-None-Match", "Cyanometer-Deadline", "X-Request-Id",
+                             "Content-Type", "Origin", "Range"}) {
+      if (hostile.chance(0.05)) made.headers.emplace(name, hostile.header());
+    }
+    return {operation, made};
+  }
+
+ private:
+  /// Small and quick where nothing else is said, with some members out of the whole schema.
+  json scene(Hostile& hostile, unsigned number) {
+    json document{{"image", {{"width", 8}, {"height", 4}}},
+                  {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                  {"method", {{"name", "raymarch"}, {"scattering_orders", 1}}}};
+    json other = RandomDocument(scene_schema_, number).next();
+    for (const char* name : {"spectrum", "method", "image"}) other.erase(name);
+    for (const auto& [name, part] : other.items()) {
+      if (hostile.chance(0.3)) document[name] = part;
+    }
+    return document;
+  }
+
+  json instance(const json& schema, Hostile& hostile, unsigned number) {
+    if (schema.contains("$ref")) return scene(hostile, number);
+    if (schema.contains("const")) return schema["const"];
+    const std::string type = schema.value("type", "null");
+    if (type == "object") {
+      json object = json::object();
+      const json properties = schema.value("properties", json::object());
+      for (const auto& [name, part] : properties.items()) {
+        // Without a scene it is the whole Earth, planned for many wavelengths: slow.
+        if (hostile.chance(part.contains("$ref") ? 0.99 : 0.7))
+          object[name] = instance(part, hostile, number);
+      }
+      if (properties.empty()) object = scene(hostile, number);
+      return object;
+    }
+    if (type == "array") {
+      json list = json::array();
+      for (std::size_t i = hostile.below(3) + 1; i > 0; --i) {
+        list.push_back(instance(schema["items"], hostile, number + static_cast<unsigned>(i)));
+      }
+      return list;
+    }
+    if (type == "number")
+      return schema.value("minimum", 0.0) / (1.0 + double(hostile.below(4)));
+    if (type == "boolean") return hostile.chance(0.5);
+    return hostile.value();
+  }
+
+  std::string body(const Operation& operation, Hostile& hostile, unsigned number) {
+    const json& content = operation.description.at("requestBody").at("content");
+    json document = instance(content.at("application/json").at("schema"), hostile, number);
+    if (hostile.chance(0.85)) hostile.mutate(document);
+    std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
+    return hostile.chance(0.2) ? hostile.broken(text) : text;
+  }
+
+  static void flatten(const json& value, const std::string& path, httplib::Params& to) {
+    if (!value.is_object() || value.empty()) {
+      to.emplace(path, value.is_string() ? value.get<std::string>() : value.dump());
+      return;
+    }
+    for (const auto& [name, part] : value.items()) {
+      flatten(part, path.empty() ? name : path + "." + name, to);
+    }
+  }
+
+  std::string query(Hostile& hostile, unsigned number, bool stream) {
+    json document = scene(hostile, number);
+    if (hostile.chance(0.7)) hostile.mutate(document);
+    httplib::Params parameters;
+    flatten(document, "", parameters);
+    if (stream) {
+      if (hostile.chance(0.6)) parameters.emplace("frames", hostile.chance(0.7) ? "2" : "1e9");
+      if (hostile.chance(0.6)) parameters.emplace("to.sun.elevation_deg", "5");
+      if (hostile.chance(0.3)) parameters.emplace("refine", "true");
+    }
+    if (hostile.chance(0.1)) parameters.emplace("to.a.b", "%");
+    std::string text = httplib::detail::params_to_query_str(parameters);
+    if (hostile.chance(0.1))
+      text += hostile.one_of<std::string>(
+          {"&", "&=", "&a..b=1", "&%00=1", "&%ff=1", "&sun=1&sun.elevation_deg=2", "&%zz"});
+    return text;
+  }
+
+  json openapi_, scene_schema_;
+  std::vector<Operation> operations_;
+};
+
+unsigned from_environment(const char* name, unsigned otherwise) {
+  const char* text = std::getenv(name);
+  return text ? static_cast<unsigned>(std::stoul(text)) : otherwise;
+}
+
+void check(const Operation& operation, const httplib::Result& answer) {
+  ASSERT_TRUE(answer) << httplib::to_string(answer.error());
+  EXPECT_LT(answer->status, 500) << answer->body.substr(0, 500);
+  EXPECT_TRUE(operation.description.at("responses").contains(std::to_string(answer->status)))
+      << answer->status << answer->body.substr(0, 500);
+  EXPECT_FALSE(answer->has_header("X-Evil"));
+  if (answer->status < 400) return;
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
+  const json problem = json::parse(answer->body, nullptr, false);
+  ASSERT_TRUE(problem.is_object()) << answer->body;
+  EXPECT_EQ(problem.value("status", 0), answer->status);
+  EXPECT_FALSE(problem.value("detail", "").empty());
+}
+
+TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
+  Config config;
+  config.listen = "127.0.0.1:0";
+  config.warm = false;
+  config.max_pixels = 4096;
+  config.max_device_s = 1;
+  config.max_wavelengths = 8;
+  config.max_frames = 4;
+  Daemon daemon(config);
+  daemon.start();
+  httplib::Client client("127.0.0.1", daemon.port());
+  client.set_keep_alive(true);
+  client.set_tcp_nodelay(true);
+  client.set_read_timeout(600);
+  for (int i = 0; i < 6000 && client.Get("/readyz")->status != 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ApiFuzzer fuzzer(json::parse(client.Get("/openapi.json")->body),
+                   json::parse(client.Get("/v1/schema")->body));
+  const unsigned first = from_environment("CYANOMETER_FUZZ_FIRST", 0);
+  const unsigned cases = from_environment("CYANOMETER_FUZZ_CASES", 1000);
+  std::map<int, int> statuses;
+  for (unsigned number = first; number < first + cases && !HasFailure(); ++number) {
+    const auto [operation, made] = fuzzer.make(number);
+    SCOPED_TRACE("CYANOMETER_FUZZ_CASES=1 CYANOMETER_FUZZ_FIRST=" + std::to_string(number) +
+                 ": " + made.method + " " + made.target.substr(0, 300) + " " +
+                 made.body.substr(0, 1000));
+    const auto answer = made.method == "GET" ? client.Get(made.target.c_str(), made.headers)
+                                             : client.Post(made.target.c_str(), made.headers,
+                                                           made.body, "application/json");
+    check(operation, answer);
+    if (answer) ++statuses[answer->status];
+  }
+  EXPECT_EQ(client.Get("/readyz")->status, 200);
+  for (const auto& [status, count] : statuses) {
+    RecordProperty(std::to_string(status), count);
+    std::printf("%d: %d\n", status, count);
+  }
+  EXPECT_GT(statuses[200], static_cast<int>(cases / 50));
+}
+
+}  // namespace
+}  // namespace cyanometer::testing
