@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "engine/accuracy/error.h"
 #include "engine/engine.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
@@ -36,7 +37,7 @@ ReferenceSizes sizes(int degree, double factor) {
 std::vector<Direction> directions() {
   std::vector<Direction> all;
   for (double elevation : {80.0, 30.0, 10.0, 3.0, -4.0, -45.0}) {
-    for (double azimuth : {10.0, 100.0, 170.0}) all.push_back({elevation, azimuth});
+    for (double azimuth : {10.0, 60.0, 100.0, 170.0}) all.push_back({elevation, azimuth});
   }
   return all;
 }
@@ -143,7 +144,7 @@ void expect_agreement(const Difference& d, double bound) {
   EXPECT_LT(d.largest_beyond_noise, bound);
 }
 
-/// Of 54 values, of which wavelengths share walks.
+/// Of 72 values, of which wavelengths share walks.
 void expect_nothing_but_noise(const Difference& d) {
   EXPECT_LT(std::abs(d.mean_z), 0.5);
   EXPECT_LT(d.mean_square_z, 2);
@@ -175,6 +176,62 @@ TEST(References, AgreeToHalfAPermilleWhereWalksAreMany) {
   EXPECT_LT(d.median_error, 5e-4);
   expect_agreement(d, 2e-4);
   expect_nothing_but_noise(d);
+}
+
+/// |d| of the contract's measure between a method and the extrapolated tables, ascending.
+std::vector<double> differences(const std::string& method, double sun,
+                                const Extrapolated& tables) {
+  static Engine engine;
+  Scene scene = clear_air();
+  scene.sun.elevation_deg = sun;
+  scene.method = {};
+  scene.method.name = method;
+  for (const MethodDescription& each : methods()) {
+    if (each.name != method) continue;
+    for (const MethodOption& option : each.options) {
+      scene.method.options[option.name] = option.default_value;
+    }
+  }
+  oracle::Adaptive first(pack<double>(problem_of(scene, sun)), 1e-6);
+  std::vector<std::vector<double>> expected;
+  for (std::size_t i = 0; i < directions().size(); ++i) {
+    auto [elevation, azimuth] = directions()[i];
+    oracle::Ray one = first.trace(towards(elevation, azimuth));
+    expected.emplace_back();
+    for (int w = 0; w < 3; ++w) {
+      expected.back().push_back(one.inscatter[w] + one.ground[w] + tables.radiance[i][w]);
+    }
+  }
+  auto d = relative_differences(engine.radiance(scene, directions(), false).radiance, expected);
+  for (double& each : d) each = std::abs(each);
+  std::sort(d.begin(), d.end());
+  return d;
+}
+
+/// Share of values, and what they must not exceed.
+struct Bound {
+  const char* method;
+  double sun, median, share, there;
+};
+
+TEST(References, BoundTheMethodsInClearAirDownToLateTwilight) {
+  Tables tables(clear_air(), 2, 1.6);
+  for (double sun : {60.0, 15.0, 3.0, -6.0, -12.0}) {
+    Extrapolated expected = tables.at(problem_of(clear_air(), sun));
+    bool day = sun > 0;
+    std::vector<Bound> bounds{{"bruneton", sun, day ? 0.003 : 1, 0.99, sun < -6 ? 0.05 : 0.02}};
+    if (sun >= -6) bounds.push_back({"moments", sun, day ? 0.002 : 1, 0.95, day ? 0.01 : 0.02});
+    for (const Bound& bound : bounds) {
+      auto d = differences(bound.method, sun, expected);
+      auto at = [&](double share) {
+        return d[static_cast<std::size_t>(share * static_cast<double>(d.size()))];
+      };
+      std::printf("sun %5.1f: %-8s median %.2e, %2.0f %% %.2e (tables' step %.1e)\n", sun,
+                  bound.method, at(0.5), 100 * bound.share, at(bound.share), expected.step);
+      EXPECT_LT(at(0.5), bound.median) << bound.method << sun;
+      EXPECT_LT(at(bound.share), bound.there) << bound.method << sun;
+    }
+  }
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
   MomentSettings settings{.degree = degree,
                           .altitudes = sized("altitudes", 4 + degree + thick),
                           .suns = sized("suns", 8 + 2 * degree),
-                          .directions = sized("directions", 4 + degree),
+                          .directions = sized("directions", 6 + degree),
                           .azimuths = sized("azimuths", 2 + degree),
                           .steps = sized("steps", 2 + degree + thick),
                           .orders = chosen("orders", orders_until_geometric(problem)),
