@@ -11,11 +11,13 @@ namespace cyanometer::bruneton {
 /// 6 km up, over parts of 1 m to 100 km, against integrals along them
 /// (tests/bruneton/segments_test.cpp):
 /// - by day, median 0.7 to 4 %; parts shorter than 10 km are off by up to 74 %;
-/// - with the sun on the horizon, all orders: median 2 to 8 %; next to the ground looking down
-///   all light of a part may be lost, as logarithms are interpolated to the 0 on the ground;
-/// - there, the first order alone: median 3 to 23 %; about the planet's shadow hundreds of
-/// times
-///   too much, and of parts up to 1 km one in twenty is negative.
+/// - with the sun on the horizon, all orders: median 2 to 8 %; looking down from below the
+///   second altitude (0.4 km) nearly all light of a part up to 1 km is lost, as logarithms are
+///   interpolated to the nothing that is seen from the ground;
+/// - there, the first order alone: median 3 to 23 %; from below that altitude blue, of which
+/// the
+///   low sun has next to nothing left, is off by hundreds of times, and of all values for parts
+///   up to 1 km one in twenty is negative.
 /// Nothing hides that. Light is parallel, from the disc's centre.
 class Segments {
  public:
