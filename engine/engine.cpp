@@ -482,6 +482,22 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   return result;
 }
 
+std::vector<Panels> Engine::table_panels(const Scene& scene, const Watch& watch) {
+  Problem problem = make_problem(scene, some_wavelengths_of(scene));
+  Method& method = parts_->method(scene.method.name);
+  Tracer tracer = parts_->tracer(watch);
+  std::vector<Panels> all;
+  for (const Parts::Batch& batch : parts_->upload(problem)) {
+    std::vector<Panels> part = method.tables(tracer, batch.scene, scene.method.options);
+    if (all.empty()) {
+      all = std::move(part);
+    } else {
+      for (std::size_t i = 0; i < all.size(); ++i) append_wavelengths(part[i], all[i]);
+    }
+  }
+  return all;
+}
+
 void Engine::forget_tables() { parts_->tables.clear(); }
 
 std::size_t Engine::device_bytes() const { return parts_->device.allocated_bytes(); }

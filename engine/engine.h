@@ -99,6 +99,8 @@ struct Radiances {
   Plan plan;
 };
 
+struct Panels;
+
 /// Tables kept between requests.
 struct TableUse {
   std::size_t bytes = 0;  ///< held now
@@ -163,6 +165,11 @@ class Engine {
   Frame render(const Scene& scene, const Plan& plan, const Watch& watch = {});
   Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
                      bool irradiance, const Plan& plan, const Watch& watch = {});
+
+  /// The tables of the scene's method, which is named, with its options, to be looked at; none
+  /// where it shows none. Nothing is planned: the wavelengths are the scene's, or a few.
+  /// @throws OverLimit, Cancelled, DeviceLost
+  std::vector<Panels> table_panels(const Scene& scene, const Watch& watch = {});
 
   /// What a frame of the scene would take by such a plan, ms, as plans reckon it.
   double expected_ms(const Scene& scene, const Plan& plan);

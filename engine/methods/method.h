@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/engine.h"
+#include "engine/image/panels.h"
 #include "engine/methods/pacer.h"
 #include "engine/methods/table_cache.h"
 #include "engine/methods/uploaded_scene.h"
@@ -63,6 +64,10 @@ class Method {
   /// tracer's cache. No dispatch is longer than the pacer allows.
   virtual void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
                      const Tile& tile) = 0;
+  /// The tables that a frame of the scene is made from, to be looked at; none where the method
+  /// has none or shows none.
+  virtual std::vector<Panels> tables(Tracer& tracer, const UploadedScene& scene,
+                                     const MethodOptions& options);
 };
 
 /// The methods, made for a device; in the order of `methods()`.

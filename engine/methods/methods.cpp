@@ -17,6 +17,10 @@ const std::vector<MethodDescription>& methods() {
   return all;
 }
 
+std::vector<Panels> Method::tables(Tracer&, const UploadedScene&, const MethodOptions&) {
+  return {};
+}
+
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device) {
   std::vector<std::unique_ptr<Method>> all;
   all.push_back(make_nishita(device));

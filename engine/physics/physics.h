@@ -122,6 +122,7 @@ struct Physics {
 #include "shaders/methods/hillaire/view.glsl"
 #include "shaders/methods/hillaire/sky_view.glsl"
 #include "shaders/methods/bruneton/grid.glsl"
+#include "shaders/methods/bruneton/segment.glsl"
   // clang-format on
 };
 

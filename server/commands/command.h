@@ -60,5 +60,6 @@ void add_chart(CLI::App& app);
 void add_audit(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_load(CLI::App& app);
+void add_tables(CLI::App& app);
 
 }  // namespace cyanometer

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 TEST(Command, EveryCommandHelpsWithAnExample) {
   for (const auto* name :
        {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
-        "bench", "chart", "audit", "profile", "load", "compare", "explain"}) {
+        "bench", "chart", "audit", "profile", "load", "compare", "explain", "tables"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -97,6 +97,40 @@ TEST(Command, ExplainPrintsATableOrTheDocument) {
   Program document({"explain", "-", "--json"}, scene);
   EXPECT_EQ(document.wait(), 0) << document.err();
   EXPECT_TRUE(json::parse(document.out()).contains("curvature"));
+}
+
+/// A scene of small tables of `bruneton`.
+json small_tables() {
+  const json method{{"name", "bruneton"}, {"altitudes", 4},       {"zeniths", 6},
+                    {"suns", 8},          {"source_azimuths", 3}, {"source_zeniths", 5},
+                    {"samples", 6},       {"orders", 2}};
+  return {{"method", method}, {"sun", {{"elevation_deg", 5}}}};
+}
+
+TEST(Command, TablesWritesAPictureOfEachAndSaysWhatItIs) {
+  TemporaryFolder folder;
+  Program run({"tables", "-", "-o", folder / "tables"}, small_tables().dump());
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  for (const std::string name : {"source", "irradiance", "view"}) {
+    const std::string file = folder / "tables" / (name + ".png");
+    EXPECT_TRUE(read_file(file).starts_with("\x89PNG")) << file;
+    EXPECT_THAT(run.out(), ::testing::HasSubstr(file + ": " + name));
+  }
+  EXPECT_EQ(std::ranges::count(run.out(), '\n'), 3);
+}
+
+TEST(Command, TablesRefusesASceneThatHasNone) {
+  TemporaryFolder folder;
+  auto scene = small_tables();
+  scene["method"]["scattering_orders"] = 1;
+  Program none({"tables", "-", "-o", folder / "none"}, scene.dump());
+  EXPECT_EQ(none.wait(), 2);
+  EXPECT_THAT(none.err(), ::testing::HasSubstr("first_order"));
+  Program two({"tables", "-", "--preset", "mars", "-o", folder / "none"}, "{}");
+  EXPECT_EQ(two.wait(), 2);
+  Program unknown({"tables", "--preset", "nowhere", "-o", folder / "none"});
+  EXPECT_EQ(unknown.wait(), 2);
+  EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
 TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "engine/accuracy/error.h"
-#include "engine/image/encode.h"
-#include "engine/methods/bruneton/pictures.h"
+#include "engine/image/panels.h"
 #include "tests/bruneton/bruneton_testing.h"
+#include "tests/bruneton/workshop.h"
 #include "tests/oracle/adaptive.h"
 
 namespace cyanometer {
@@ -203,22 +203,6 @@ TEST(Bruneton, GathersForTheViewWhatTheTableHolds) {
   EXPECT_LT(difference(with_gather(0), with_gather(1), 0.9), 0.02);
 }
 
-/// What a method is given to work with, without an engine.
-struct Workshop {
-  vulkan::Device device;
-  vulkan::Commands commands{device};
-  Pacer pacer{50};
-  TableCache tables{std::size_t{64} << 20};
-  Watch watch;
-  Tracer tracer{device, commands, pacer, tables, watch};
-  bruneton::TableMaker maker{device};
-
-  UploadedScene upload(double altitude_km, double sun_deg) {
-    Scene scene = hazy(altitude_km, sun_deg, std::nullopt, {});
-    return {device, make_problem(scene, {680, 550, 440})};
-  }
-};
-
 TEST(Bruneton, ItsTablesServeEverySunAndEveryCamera) {
   Workshop w;
   bruneton::Setup setup(small_tables());
@@ -231,31 +215,50 @@ TEST(Bruneton, ItsTablesServeEverySunAndEveryCamera) {
             w.maker.view(w.tracer, w.upload(36000, -5), setup));
 }
 
-TEST(Bruneton, ItsTablesCanBeLookedAtAsPictures) {
-  Workshop w;
-  UploadedScene scene = w.upload(0, 30);
-  auto pictures = bruneton::pictures(w.maker, w.tracer, scene, bruneton::Setup(small_tables()));
-  ASSERT_EQ(pictures.size(), 3u);
-  for (const auto& picture : pictures) {
-    ASSERT_EQ(picture.frame.planes.size(), 3u);
-    int pixels = picture.frame.width * picture.frame.height;
-    for (const Frame::Plane& plane : picture.frame.planes) {
-      EXPECT_TRUE(std::all_of(plane.samples, plane.samples + pixels, [](float x) {
-        return std::isfinite(x) && x >= 0;
-      })) << picture.name;
-    }
-    // High suns are to the right, and brighter than night.
-    const float* row = picture.frame.planes[1].samples;
-    if (picture.name == "irradiance") {
-      EXPECT_GT(row[pixels - 1], 100 * row[0]);
-    }
-    Scene as;
-    for (ImageFormat format : {ImageFormat::png, ImageFormat::exr}) {
-      as.image.format = format;
-      as.image.channels = Channels::spectral;
-      EXPECT_GT(encode(picture.frame, as).size(), 100u);
+std::vector<Panels> tables_with(const MethodOptions& changed, std::optional<int> orders) {
+  return device().table_panels(hazy(0, 30, orders, small_tables(changed)));
+}
+
+std::vector<std::string> names(const std::vector<Panels>& all) {
+  std::vector<std::string> found;
+  for (const Panels& panels : all) found.push_back(panels.name);
+  return found;
+}
+
+TEST(Bruneton, ShowsTheTablesThatAFrameIsMadeFrom) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(tables_with({}, std::nullopt)), (Names{"source", "irradiance", "view"}));
+  EXPECT_EQ(names(tables_with({{"first_order", 1}}, 1)),
+            (Names{"first_order_aerosol", "first_order_air", "first_order_ozone"}));
+  EXPECT_TRUE(tables_with({}, 1).empty());
+}
+
+TEST(Bruneton, ItsTablesAreReadWithTheirAxes) {
+  for (int gather : {0, 1}) {
+    for (const Panels& panels : tables_with({{"gather", gather}}, std::nullopt)) {
+      std::size_t nodes = std::size_t{1} * panels.rows.nodes * panels.columns.nodes *
+                          panels.down.nodes * panels.across.nodes;
+      ASSERT_EQ(panels.values.size(), 3u);
+      for (const std::vector<float>& plane : panels.values) {
+        EXPECT_EQ(plane.size(), nodes) << panels.name;
+        EXPECT_TRUE(std::ranges::all_of(plane, [](float x) {
+          return std::isfinite(x) && x >= 0;
+        })) << panels.name;
+      }
+      if (panels.columns.nodes > 1) {
+        EXPECT_EQ(panels.columns.labels.back(), "sun 90.0 deg");
+        EXPECT_EQ(panels.rows.labels.front(), "0 km");
+      }
     }
   }
+}
+
+TEST(Bruneton, ThePictureOfItsViewHasTheSkyAboveAndTheSunAtTheLeft) {
+  Panels view = device().table_panels(hazy(0, 5, std::nullopt, small_tables())).back();
+  const std::vector<float>& red = view.values.front();
+  EXPECT_GT(red.front(), 100 * red.back());  // from 0 km nothing lies below
+  std::size_t row = (view.down.nodes / std::size_t{2} - 8) * view.across.nodes;
+  EXPECT_GT(red[row], 1.2 * red[row + view.across.nodes - 1]);
 }
 
 TEST(Bruneton, RefusesTablesThatTheDeviceCannotBind) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/gauss_legendre.h"
@@ -28,8 +29,14 @@ class Adaptive {
     altitudes_ = bends();
   }
 
-  Ray trace(const glm::dvec3& direction) {
+  /// @param end_km  where the ray ends if not before, on the ground or at the top
+  Ray trace(const glm::dvec3& direction,
+            double end_km = std::numeric_limits<double>::infinity()) {
     P::Path path = p_.path_from_camera(direction);
+    if (end_km < path.length_km) {
+      path.length_km = end_km;
+      path.meets_ground = false;
+    }
     path_ = path;
     Ray ray{Values(lanes(), 0.0), Values(lanes(), 0.0), Values(lanes(), 1.0),
             Values(lanes(), 0.0)};

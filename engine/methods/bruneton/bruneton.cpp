@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/methods/bruneton/table_panels.h"
 #include "engine/methods/bruneton/tables.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "spirv/bruneton.spv.h"
@@ -50,8 +51,12 @@ class Bruneton final : public Method {
     } else {
       trace_single(tracer, scene, setup, tile);
     }
-    int orders = scene.problem().scattering_orders;
-    if (orders < 0 || orders > 1) add_multiple(tracer, scene, setup, tile);
+    if (bruneton::has_multiple(scene.problem())) add_multiple(tracer, scene, setup, tile);
+  }
+
+  std::vector<Panels> tables(Tracer& tracer, const UploadedScene& scene,
+                             const MethodOptions& options) override {
+    return bruneton::table_panels(tables_, tracer, scene, Setup(options));
   }
 
  private:

@@ -111,6 +111,14 @@ Rays rays_at(P& p, const P::ScatteringGrid& grid, const std::vector<double>& alt
   return rays;
 }
 
+std::vector<double> all_altitudes(P& p, const P::ScatteringGrid& grid) {
+  std::vector<double> altitudes;
+  for (int a = 0; a < grid.altitudes; ++a) {
+    altitudes.push_back(p.altitude_at(grid, static_cast<double>(a) / (grid.altitudes - 1)));
+  }
+  return altitudes;
+}
+
 std::vector<double> all_suns(P& p, const P::ScatteringGrid& grid) {
   std::vector<double> suns;
   for (int s = 0; s < grid.suns; ++s) {
@@ -123,6 +131,15 @@ std::vector<double> all_suns(P& p, const P::ScatteringGrid& grid) {
 void refine_directions(P::ScatteringGrid& grid, int zeniths, int azimuths) {
   grid.zeniths = std::max(grid.zeniths, zeniths);
   grid.azimuths = std::max(grid.azimuths, azimuths);
+}
+
+P::ScatteringGrid refined_source_grid(const Problem& problem, const Setup& setup) {
+  P::ScatteringGrid grid = grid_of(problem, setup);
+  grid.altitudes = setup.refined(grid.altitudes);
+  grid.suns = setup.refined(grid.suns);
+  grid.zeniths = setup.refined(setup.source_zeniths);
+  grid.azimuths = setup.refined(setup.source_azimuths);
+  return grid;
 }
 
 int degree_of(const Setup& setup) { return setup.refinement > 1 ? 3 : 1; }
@@ -162,11 +179,7 @@ std::string Setup::key() const {
 Rays all_rays(const Problem& problem, const Setup& setup) {
   P p = pack<double>(problem);
   P::ScatteringGrid grid = grid_of(problem, setup);
-  std::vector<double> altitudes;
-  for (int a = 0; a < grid.altitudes; ++a) {
-    altitudes.push_back(p.altitude_at(grid, static_cast<double>(a) / (grid.altitudes - 1)));
-  }
-  return rays_at(p, grid, altitudes, all_suns(p, grid), degree_of(setup));
+  return rays_at(p, grid, all_altitudes(p, grid), all_suns(p, grid), degree_of(setup));
 }
 
 Rays rays_from(const Problem& problem, const Setup& setup, double altitude_km, double mu_s) {
@@ -189,12 +202,13 @@ Rays rays_from_space(const Problem& problem, const Setup& setup) {
 }
 
 ScatteringGrid source_grid(const Problem& problem, const Setup& setup) {
-  P::ScatteringGrid grid = grid_of(problem, setup);
-  grid.altitudes = setup.refined(grid.altitudes);
-  grid.suns = setup.refined(grid.suns);
-  grid.zeniths = setup.refined(setup.source_zeniths);
-  grid.azimuths = setup.refined(setup.source_azimuths);
-  return in_float(grid);
+  return in_float(refined_source_grid(problem, setup));
+}
+
+Places source_places(const Problem& problem, const Setup& setup) {
+  P p = pack<double>(problem);
+  P::ScatteringGrid grid = refined_source_grid(problem, setup);
+  return {all_altitudes(p, grid), all_suns(p, grid)};
 }
 
 }  // namespace cyanometer::bruneton

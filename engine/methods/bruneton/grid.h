@@ -52,4 +52,11 @@ Rays rays_from_space(const Problem& problem, const Setup& setup);
 /// refined.
 ScatteringGrid source_grid(const Problem& problem, const Setup& setup);
 
+/// Nodes of a grid.
+struct Places {
+  std::vector<double> altitudes_km;
+  std::vector<double> sun_cosines;  ///< of the zenith angle
+};
+Places source_places(const Problem& problem, const Setup& setup);
+
 }  // namespace cyanometer::bruneton

@@ -168,6 +168,10 @@ std::int64_t for_gathering(int cells, std::int64_t groups) { return 16 * cells *
 
 }  // namespace
 
+bool has_multiple(const Problem& problem) {
+  return problem.scattering_orders < 0 || problem.scattering_orders > 1;
+}
+
 double evaluations(const Problem& problem, const Setup& setup) {
   std::int64_t media = std::ssize(problem.media);
   std::int64_t groups = (std::ssize(problem.wavelengths_nm) + 3) / 4;

@@ -59,6 +59,9 @@ class SingleTable final : public Tables {
   vulkan::Buffer particles;  ///< of particles, the first wavelength alone
 };
 
+/// Whether orders are asked for that come from the source; without, there is none to be made.
+bool has_multiple(const Problem& problem);
+
 /// What making the tables costs, in evaluations of the density; roughly.
 double evaluations(const Problem& problem, const Setup& setup);
 

@@ -5,7 +5,8 @@
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
 #include "methods/bruneton/view_table.glsl"
-layout(std430, binding = FREE) restrict readonly buffer ViewBuffer { Vec4 views[]; };
+#define VIEW_BINDING FREE
+#include "methods/bruneton/multiple_view.glsl"
 #define IRRADIANCE_BINDING (FREE + 1)
 #include "methods/bruneton/irradiance_table.glsl"
 layout(std430, binding = FREE + 2) restrict buffer TileBuffer { Vec4 tile[]; };
@@ -14,25 +15,6 @@ layout(push_constant) uniform Push {
   int first_ray;
   int rays_in_tile;
 } push;
-
-Vec4 view_in_direction(ViewPosition at, int texel) {
-  int next = texel + grid.azimuths;
-  return mix(mix(views[texel], views[texel + 1], at.azimuth.share),
-             mix(views[next], views[next + 1], at.azimuth.share), at.zenith.share);
-}
-
-Vec4 scattered(ViewPosition at, int group) {
-  Vec4 value = Vec4(0.0);
-  UNROLL for (int s = 0; s < VIEW_SUNS; ++s) {
-    UNROLL for (int a = 0; a < VIEW_ALTITUDES; ++a) {
-      Real weight = (s == 0 ? 1.0 - at.sun.share : at.sun.share) *
-                    (a == 0 ? 1.0 - at.altitude.share : at.altitude.share);
-      int texel = group * texels() + view_texel(at, a, s);
-      value = value + weight * view_in_direction(at, texel);
-    }
-  }
-  return decoded(value);
-}
 
 void main() {
   int i = int(gl_GlobalInvocationID.x);
