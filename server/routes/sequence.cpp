@@ -166,6 +166,9 @@ Sequence swept(const Link& link, const Request& request, const Config& config) {
     }
     sweeps.push_back(read_sweep(path, value, start));
   }
+  // Ranges have no gaps, so a scene out of range shows at the end, with the number that was
+  // given.
+  read_scene(document_from_query(link_at(link.scene, sweeps, 1)));
   const int count = sequence.count;
   sequence.scene = [link, sweeps, request, count](int i) {
     const double t = count == 1 ? 0 : static_cast<double>(i) / (count - 1);

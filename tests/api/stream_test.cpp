@@ -178,6 +178,7 @@ TEST(Stream, LinksAreReadStrictly) {
     EXPECT_EQ(answer->status, 400) << query << answer->body;
     EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << query;
   }
+  EXPECT_NE(get("frames=3&to.sun.elevation_deg=900")->body.find("not 900"), std::string::npos);
   EXPECT_EQ(get("frames=3601&to.sun.elevation_deg=1")->status, 422);
   EXPECT_EQ(get("frames=1e300&to.sun.elevation_deg=1")->status, 400);
 }
