@@ -35,6 +35,9 @@ layout(constant_id = 31) const bool PHASE_TABLES = true;
 const int MEDIA = EXPONENTIALS + TENTS + QUADRATICS + UNIFORMS + TABLES;
 const int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS;
 #define GROUPS_SIZE GROUPS
+#ifndef COLUMN_NODES
+const int COLUMN_NODES = 8;  // physics/columns.glsl; a kernel that needs less defines it before
+#endif
 
 #include "physics/layout.glsl"
 

@@ -62,6 +62,7 @@ struct Physics {
   static constexpr int GROUPS_SIZE = 16;
   static constexpr int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS_SIZE;
   int EXPONENTIALS = 0, TENTS = 0, QUADRATICS = 0, UNIFORMS = 0, TABLES = 0;
+  int COLUMN_NODES = 8;  ///< 8 or 4
   int MEDIA = 0, GROUPS = 1, PROJECTION = PROJECTION_PERSPECTIVE;
   bool NEAR_SUN = false, MANY_SUNS = false, PHASE_TABLES = true;
 

@@ -2,13 +2,9 @@
 // lie in them. Groups of wavelengths are innermost everywhere.
 #include "device.glsl"
 
-layout(constant_id = 10) const int DEGREE = 4;           // of the moments, L
-layout(constant_id = 11) const bool PARTICLES = true;    // Rayleigh's function has no odd terms
+#include "methods/moments_phase.glsl"
+
 layout(constant_id = 12) const int AZIMUTHS = 6;         // of a ray in half a turn
-const int TERMS = 2 * DEGREE + 3;                        // of a particle's phase in order one
-const int SLOTS = (DEGREE + 1) * (DEGREE + 2) / 2 + 1;   // the last one is the aureole's
-const int AUREOLE = SLOTS - 1;
-const int SERIES = DEGREE + 1;                           // terms in azimuth
 const int LIGHT_SLOTS = SERIES + 1;                      // of a ray's light: they and the aureole's
 // Ratios of moments are packed as halves, those of two slots in one load: on software devices loads are most
 // of the work, and a ratio's rounding is a part in 4000 of its own term.
@@ -17,9 +13,6 @@ const int ORDER_SLOTS = (SLOTS - 1) / 2 + 1;             // the logarithm, then 
 
 #include "methods/moments.glsl"
 
-// In fours of wavelengths: coefficients (2 l + 1) / (4 pi) chi_l of each constituent's phase, l below
-// TERMS, damped beyond L; then for each constituent f, the share of its forward peak.
-layout(std430, binding = OWN) restrict readonly buffer PhaseSeriesBuffer { Vec4 phase_series[]; };
 layout(std430, binding = OWN + 1) restrict buffer RayBuffer { Vec4 ray_data[]; };
 layout(std430, binding = OWN + 2) restrict buffer LightBuffer { Vec4 light[]; };
 layout(std430, binding = OWN + 3) restrict buffer MomentBuffer { Vec4 moments[]; };
@@ -40,10 +33,6 @@ layout(push_constant) uniform Push {
 } push;
 
 #define RAYS (push.up + push.down)
-
-#define series(c, l, group) phase_series[((c) * TERMS + (l)) * GROUPS + (group)]
-#define peak(c, group) phase_series[(MEDIA * TERMS + (c)) * GROUPS + (group)]
-#define VIEW_SHARE(c) phase_series[MEDIA * (TERMS + 1) * GROUPS + (c)].x
 
 // Altitude nodes i, rays j, their nodes k: position, where the sun's nodes lie there, then for l = 0 to L
 // what a moment contributes; and for the ray what the ground at its end contributes.

@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define COLUMN_NODES 4
 #include "methods/moments_device.glsl"
 
 const int GROUND_PART = MEDIA_GROUPS_SIZE;
@@ -30,10 +31,10 @@ void series_towards(ScatteringAngle angle, OUT_ARRAY(Vec4, scattering_phase, MED
   }
 }
 
-// Adds the columns between two shares of a way, by a three-point rule.
+// Adds the columns between two shares of a way, by a two-point rule.
 void add_columns(TableRay ray, Cuts cuts, Real from, Real to, INOUT_ARRAY(Real, column, MEDIA_SIZE)) {
-  UNROLL for (int i = 0; i < 3; ++i) {
-    RayNode node = ray_node(cuts, from + (to - from) * gauss3_node(i), gauss3_weight(i) * (to - from));
+  UNROLL for (int i = 0; i < 2; ++i) {
+    RayNode node = ray_node(cuts, from + (to - from) * gauss2_node(i), 0.5 * (to - from));
     Real h = altitude_after(ray.altitude_km, ray.mu, node.t_km);
     UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += node.width_km * relative_density(h, c);
   }
@@ -187,7 +188,7 @@ void main() {
   if (index >= push.end) return;
   load_scene();
   load_media();
-  UNROLL for (int c = 0; c < MEDIA; ++c) view_share[c] = VIEW_SHARE(c);
+  UNROLL for (int c = 0; c < MEDIA; ++c) view_share[c] = share_of_extinction(c);
   int s = index % push.grid.suns;
   int j = index / push.grid.suns % RAYS;
   int i = index / push.grid.suns / RAYS;

@@ -50,12 +50,15 @@ void main() {
     }
     moment[AUREOLE] = moment[AUREOLE] + light[at + (DEGREE + 1) * GROUPS] * weight;
   }
+  // Under a high sun what is divided is rounding, once sin^m falls below a float's digits: nothing is left of
+  // it by adding to its square.
+  const Real rounding = 1e-11;
   Real square = 1.0 - mu_s * mu_s;
   Real power = 1.0;
   UNROLL for (int m = 0; m <= DEGREE; ++m) {
     UNROLL for (int l = 0; l <= DEGREE; ++l) {
       if (l < m) continue;
-      moment[moment_index(l, m)] = moment[moment_index(l, m)] * (harmonic_norm(l, m) / power);
+      moment[moment_index(l, m)] = moment[moment_index(l, m)] * (harmonic_norm(l, m) / (power + rounding));
     }
     power *= square;
   }

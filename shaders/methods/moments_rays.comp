@@ -27,7 +27,7 @@ void main() {
   Real density[MEDIA_SIZE];
   columns_along(ray.altitude_km, ray.mu, node.t_km, column);
   densities(h, density);
-  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= VIEW_SHARE(c);
+  UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= share_of_extinction(c);
 
   if (k == push.steps) {
     UNROLL for (int g = 0; g < GROUPS; ++g) {
@@ -45,8 +45,7 @@ void main() {
     UNROLL for (int l = 0; l <= DEGREE; ++l) {
       Vec4 scattered = Vec4(0.0);
       UNROLL for (int c = 0; c < MEDIA; ++c) {
-        Vec4 chi = series(c, l, g) * (4.0 * PI / Real(2 * l + 1)) - peak(c, g);
-        scattered = scattered + scattering(c, g) * density[c] * chi;
+        scattered = scattered + scattering(c, g) * density[c] * scattered_share(c, l, g);
       }
       ray_data[at + 2 + l * GROUPS + g] = scattered * seen;
     }

@@ -2,9 +2,8 @@
 // elevation, for rays that miss the ground and then for those that meet it, and azimuth.
 #include "methods/moments_view.glsl"
 
-const int SERIES = DEGREE + 1;  // terms in azimuth
-const int SENT = SERIES + 1;    // they and the aureole's
-const int SKY_POINTS = 8;       // at most, of an elevation
+const int SENT = SERIES + 1;  // terms in azimuth, and the aureole's
+const int SKY_POINTS = 8;     // at most, of an elevation
 
 // From outside the air an elevation may see day and night: then every azimuth is looked at by itself.
 layout(constant_id = 12) const bool EACH_AZIMUTH = false;
@@ -122,9 +121,8 @@ void sent_by(SkyRay ray, SkyNode node, Real x, int g, OUT_ARRAY(Vec4, term, SENT
     if (!PARTICLES && l % 2 == 1) continue;
     Vec4 scattered = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) {
-      Vec4 share_l = series(c, l, g) * (4.0 * PI / Real(2 * l + 1)) - peak(c, g);
       Vec4 coefficient = spectra[(3 + 3 * c) * GROUPS + g] * density[c];
-      scattered = scattered + coefficient * share_l;
+      scattered = scattered + coefficient * scattered_share(c, l, g);
       if (l == 0 && medium(c).phase > PHASE_RAYLEIGH) peaked = peaked + coefficient;
     }
     UNROLL for (int m = 0; m <= DEGREE; ++m) {

@@ -1,6 +1,8 @@
 // Gauss-Legendre rules on [0, 1] [Abramowitz and Stegun 1964, table 25.4]. Loops over those of a fixed
 // number of nodes are unrolled, so that nodes and weights become literals.
 
+Real gauss2_node(int i) { return i == 0 ? 0.2113248654051871 : 0.7886751345948129; }
+
 Real gauss3_node(int i) {
   if (i == 0) return 0.1127016653792583;
   if (i == 1) return 0.5;

@@ -23,8 +23,9 @@ Problem shell(double radius_km, double thickness_km, const std::vector<Profile>&
 
 /// The largest relative difference over altitudes and directions to the top, where a column is
 /// not vanishing.
-double worst_difference(const Problem& problem) {
+double worst_difference(const Problem& problem, int nodes = 8) {
   Physics<double> p = pack<double>(problem);
+  p.COLUMN_NODES = nodes;
   oracle::Adaptive exact(pack<double>(problem));
   double worst = 0;
   for (double share : {0.0, 1e-5, 0.003, 0.03, 0.1, 0.3, 0.6, 0.99}) {
@@ -62,6 +63,13 @@ TEST(Columns, OnSmallPlanetsAreWithinAFewPartsIn10000) {
   EXPECT_LT(worst_difference(small), 3e-4);
   small = shell(400, 60, {ExponentialProfile{12}, TentProfile{30, 20}, UniformProfile{}});
   EXPECT_LT(worst_difference(small), 3e-4);
+}
+
+TEST(Columns, OfHalfTheNodesAreWithinSixParts1000) {
+  Problem earth = shell(6360, 100,
+                        {ExponentialProfile{8}, ExponentialProfile{1.2}, TentProfile{25, 15},
+                         QuadraticProfile{}, UniformProfile{}});
+  EXPECT_LT(worst_difference(earth, 4), 6e-3);
 }
 
 TEST(Columns, OfATabulatedProfileFollowItsNodes) {

@@ -76,8 +76,9 @@ int degree_for(const Problem& problem) {
   // What the first moment left out scatters of a beam that crosses the air: in thick air light
   // has no peak left. An optical depth of a hundredth of it was measured to be worth up to a
   // hundredth of the radiance at the horizon.
-  constexpr int lowest = 4, highest = 8;
+  constexpr int molecules = 2, lowest = 4, highest = 8;
   constexpr double most_left_out = 0.004;
+  if (std::ranges::none_of(problem.media, is_particle)) return molecules;
   int degree = lowest;
   for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
     std::vector<double> left_out(highest + 2);

@@ -16,7 +16,7 @@ typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, 
 double largest_depth(const Problem& problem);
 
 /// A degree for moments that leaves little of the scene's forward peaks to the aureole's
-/// channel: 4 in clear air, up to 8.
+/// channel: 2 without particles, where that is all, 4 in clear air, up to 8.
 int degree_for(const Problem& problem);
 
 /// Orders after which each is the same share of the one before, so that a geometric series

@@ -62,21 +62,21 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
     int value = option(options, name);
     return value > 0 ? value : otherwise;
   };
-  constexpr int highest_degree = 8;
   int usual_degree = degree_for(problem);
-  bool more = option(options, "finer") != 0, higher = usual_degree < highest_degree;
-  int degree = chosen("degree", std::min(usual_degree + (more ? 2 : 0), highest_degree));
+  bool more = option(options, "finer") != 0, peaked = usual_degree > 2;
+  int degree = chosen("degree", usual_degree + (more && peaked ? 2 : 0));
   auto sized = [&](const char* name, int usual) {
-    return chosen(name, more && !higher ? usual * 5 / 4 : usual);
+    return chosen(name, more && !peaked ? usual * 5 / 4 : usual);
   };
+  int fineness = std::max(degree, 4);  // of what the moments are moments of
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
   int thick = static_cast<int>(std::min(1.5 * largest_depth(problem), 12.0));
   MomentSettings settings{.degree = degree,
-                          .altitudes = sized("altitudes", 4 + degree + thick),
-                          .suns = sized("suns", 8 + 2 * degree),
-                          .directions = sized("directions", 6 + degree),
+                          .altitudes = sized("altitudes", 4 + fineness + thick),
+                          .suns = sized("suns", 8 + 2 * fineness),
+                          .directions = sized("directions", 6 + fineness),
                           .azimuths = sized("azimuths", 2 + degree),
-                          .steps = sized("steps", 2 + degree + thick),
+                          .steps = sized("steps", 2 + fineness + thick),
                           .orders = chosen("orders", orders_until_geometric(problem)),
                           .tail = true};
   settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
@@ -337,9 +337,9 @@ MethodOptions sizes(int degree, bool finer_tables, bool march) {
                         {"finer", finer_tables},
                         {"march_pixels", march},
                         {"view_nodes", finer_tables ? 8 : 6},
-                        {"sky_steps", finer_tables ? 20 : 16},
-                        {"sky_elevations", finer_tables ? 64 : 48},
-                        {"sky_azimuths", finer_tables ? 32 : 24},
+                        {"sky_steps", finer_tables ? 20 : 14},
+                        {"sky_elevations", finer_tables ? 64 : 40},
+                        {"sky_azimuths", finer_tables ? 32 : 20},
                         {"first_elevations", 108},
                         {"first_azimuths", 64},
                         {"first_samples", 16}};
@@ -367,9 +367,9 @@ const MethodDescription& moments_description() {
            "by 1 % in twilight."},
       .options =
           {whole("degree", "Degree",
-                 "Highest degree of the spherical-harmonic moments; 0 takes 4 in clear air and "
-                 "up to 8 in haze.",
-                 0, 8, 0),
+                 "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "
+                 "in clear air and up to 8 in haze.",
+                 0, Physics<float>::MOST_DEGREE, 0),
            whole("altitudes", "Altitudes",
                  "Nodes of the tables over altitude; 0 takes what suits the degree, and more "
                  "where the air is thick.",
@@ -392,20 +392,23 @@ const MethodDescription& moments_description() {
                  "Orders that are traced before a geometric series takes over; 0 takes as many "
                  "as the air's depth and the ground's albedo ask for.",
                  0, 64, 0),
-           whole("finer", "Finer",
-                 "1: all that follows from the scene is a quarter finer, the degree higher by "
-                 "two.",
-                 0, 1, 0),
+           whole(
+               "finer", "Finer",
+               "1: the degree that follows from the scene is higher by two, and all that "
+               "follows "
+               "from it finer; in clean air, which two degrees hold, all the rest is a quarter "
+               "finer.",
+               0, 1, 0),
            whole("view_nodes", "View nodes",
                  "Gauss nodes of order one on each smooth piece of a view ray.", 1,
                  Physics<float>::MOST_GAUSS_NODES, 6),
            whole("sky_steps", "Sky steps",
                  "Gauss nodes of the other orders on a ray of the camera's sky.", 4,
-                 Physics<float>::MOST_GAUSS_NODES, 16),
+                 Physics<float>::MOST_GAUSS_NODES, 14),
            whole("sky_elevations", "Sky elevations",
-                 "Elevations of the camera's sky, and as many of its ground.", 8, 256, 48),
+                 "Elevations of the camera's sky, and as many of its ground.", 8, 256, 40),
            whole("sky_azimuths", "Sky azimuths",
-                 "Azimuths of the camera's sky, in half a turn.", 4, 128, 24),
+                 "Azimuths of the camera's sky, in half a turn.", 4, 128, 20),
            whole(
                "march_pixels", "March each pixel",
                "1 marches order one in every pixel, as is always done from outside the air and "

