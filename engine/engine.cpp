@@ -131,7 +131,7 @@ struct Engine::Parts {
   explicit Parts(const EngineOptions& options)
       : device(options.device),
         commands(device),
-        pacer(options.longest_dispatch_ms),
+        longest_dispatch_ms(options.longest_dispatch_ms),
         tables(options.table_bytes),
         methods(make_methods(device)),
         compositor(device),
@@ -143,7 +143,9 @@ struct Engine::Parts {
 
   vulkan::Device device;
   vulkan::Commands commands;
-  Pacer pacer;
+  double longest_dispatch_ms;
+  /// By method: what one counts as an evaluation takes another time than what others do.
+  std::unordered_map<std::string, Pacer> pacers;
   TableCache tables;
   std::vector<std::unique_ptr<Method>> methods;
   Compositor compositor;
@@ -174,7 +176,11 @@ struct Engine::Parts {
     std::size_t wavelengths() const { return scene.problem().wavelengths_nm.size(); }
   };
 
-  Tracer tracer(const Watch& watch) { return {device, commands, pacer, tables, watch}; }
+  /// @param work  a method's name, or any other work's
+  Tracer tracer(const std::string& work, const Watch& watch) {
+    Pacer& pacer = pacers.try_emplace(work, longest_dispatch_ms).first->second;
+    return {device, commands, pacer, tables, watch};
+  }
 
   /// All wavelengths; the rays are `directions`, or the camera's where there are none.
   std::vector<Batch> upload(const Problem& problem,
@@ -195,7 +201,7 @@ struct Engine::Parts {
                    const std::vector<Batch>& batches, int rays, Visit visit) {
     Method& m = method(name);
     const UploadedScene& largest = batches.front().scene;
-    int at_once = std::min(m.rays_at_once(largest, options, pacer), rays);
+    int at_once = std::min(m.rays_at_once(largest, options, tracer.pacer), rays);
     vulkan::Buffer values(device, Tile::bytes(m.description(), largest.groups(), at_once),
                           vulkan::Memory::host);
     for (int first = 0; first < rays; first += at_once) {
@@ -219,7 +225,7 @@ struct Engine::Parts {
     bool random = method(method_name).description().random;
     if (random) traced.standard_error.assign(directions.size(), dark);
     std::vector<Batch> batches = upload(problem, directions);
-    Tracer tracer = this->tracer(watch);
+    Tracer tracer = this->tracer(method_name, watch);
     auto read = [&](std::size_t b, const Tile& tile) {
       const Batch& batch = batches[b];
       auto values = tile.values.as<const glm::vec4>();
@@ -312,7 +318,7 @@ void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
     jobs.push_back(compositor.prepare(device, batch.scene, groups, batch.first,
                                       problem.wavelengths_nm.size()));
   }
-  Tracer tracer = this->tracer(watch);
+  Tracer tracer = this->tracer(plan.method, watch);
   auto compose = [&](std::size_t b, const Tile& tile) {
     compositor.compose(commands, jobs[b], tile, store);
     tracer.submit();
@@ -328,7 +334,7 @@ void Engine::Parts::display(const Scene& scene, const Output& output, const Watc
                           ? *scene.image.exposure_ev
                           : automatic_exposure_ev(store.samples(0, 3), output.white_card);
   if (store.rgbx.empty()) return;
-  Tracer tracer = this->tracer(watch);
+  Tracer tracer = this->tracer("display", watch);
   compositor.display(tracer, scene.image, output, frame.exposure_ev, store);
   frame.rgbx = store.rgbx.front().as<const unsigned char>().data();
   frame.render_ms += tracer.device_ms;
@@ -485,7 +491,7 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
 std::vector<Panels> Engine::table_panels(const Scene& scene, const Watch& watch) {
   Problem problem = make_problem(scene, some_wavelengths_of(scene));
   Method& method = parts_->method(scene.method.name);
-  Tracer tracer = parts_->tracer(watch);
+  Tracer tracer = parts_->tracer(scene.method.name, watch);
   std::vector<Panels> all;
   for (const Parts::Batch& batch : parts_->upload(problem)) {
     std::vector<Panels> part = method.tables(tracer, batch.scene, scene.method.options);

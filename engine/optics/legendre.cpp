@@ -37,43 +37,91 @@ std::vector<double> cornette_shanks_coefficients(double g, int degree) {
 
 namespace {
 
-/// Of the interval of the table that begins at `low`: its length is cut so that neither the
-/// function nor the highest polynomial turns much between two of the eight points.
-void add_interval(double low, double high, double f_low, double f_high,
-                  std::vector<double>& chi) {
-  static const GaussRule rule = gauss_legendre(8);
-  int degree = static_cast<int>(chi.size()) - 1;
-  bool logarithmic = f_low > 0 && f_high > 0;
-  double turns = (high - low) * degree / 2;
-  double folds = logarithmic ? std::abs(std::log(f_high / f_low)) / 4 : 0;
-  int parts = 1 + static_cast<int>(turns + folds);
-  for (int part = 0; part < parts; ++part) {
-    for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-      double x = (part + rule.nodes[k]) / parts, theta = low + (high - low) * x;
-      double f =
-          logarithmic ? f_low * std::pow(f_high / f_low, x) : f_low + (f_high - f_low) * x;
-      double weight =
-          2 * std::numbers::pi * f * std::sin(theta) * rule.weights[k] * (high - low) / parts;
-      double mu = std::cos(theta), before = 0, p = 1;
-      for (int l = 0; l <= degree; ++l) {
-        chi[l] += weight * p;
-        double next = ((2 * l + 1) * mu * p - l * before) / (l + 1);
-        before = p;
-        p = next;
+/// The integrals over an interval of a table are summed for all its functions at once: they
+/// share the polynomials, which are most of the work.
+class IntervalSums {
+ public:
+  IntervalSums(std::size_t functions, int degree)
+      : functions_(functions), degree_(degree), chi_(functions * (degree + 1), 0.0) {
+    for (int l = 0; l <= degree; ++l) {
+      up_.push_back((2.0 * l + 1) / (l + 1));
+      down_.push_back(l / (l + 1.0));
+    }
+  }
+
+  /// The interval's length is cut so that neither a function nor the highest polynomial turns
+  /// much between two of the eight points.
+  void add(double low, double high, const std::vector<double>& f_low,
+           const std::vector<double>& f_high) {
+    static const GaussRule rule = gauss_legendre(8);
+    double folds = 0;
+    for (std::size_t i = 0; i < functions_; ++i) {
+      if (is_logarithmic(f_low[i], f_high[i])) {
+        folds = std::max(folds, std::abs(std::log(f_high[i] / f_low[i])) / 4);
+      }
+    }
+    int parts = 1 + static_cast<int>((high - low) * degree_ / 2 + folds);
+    std::vector<double> weighted(functions_);
+    for (int part = 0; part < parts; ++part) {
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        double x = (part + rule.nodes[k]) / parts, theta = low + (high - low) * x;
+        double weight =
+            2 * std::numbers::pi * std::sin(theta) * rule.weights[k] * (high - low) / parts;
+        for (std::size_t i = 0; i < functions_; ++i) {
+          weighted[i] = weight * between(f_low[i], f_high[i], x);
+        }
+        add_polynomials(std::cos(theta), weighted);
       }
     }
   }
-}
+
+  /// [function][l]
+  std::vector<std::vector<double>> take() const {
+    std::vector<std::vector<double>> all(functions_, std::vector<double>(degree_ + 1));
+    for (int l = 0; l <= degree_; ++l) {
+      for (std::size_t i = 0; i < functions_; ++i) all[i][l] = chi_[l * functions_ + i];
+    }
+    return all;
+  }
+
+ private:
+  static bool is_logarithmic(double f_low, double f_high) { return f_low > 0 && f_high > 0; }
+  static double between(double f_low, double f_high, double x) {
+    return is_logarithmic(f_low, f_high) ? f_low * std::pow(f_high / f_low, x)
+                                         : f_low + (f_high - f_low) * x;
+  }
+  void add_polynomials(double mu, const std::vector<double>& weighted) {
+    double before = 0, p = 1;
+    double* sum = chi_.data();
+    for (int l = 0; l <= degree_; ++l) {
+      for (std::size_t i = 0; i < functions_; ++i) *sum++ += weighted[i] * p;
+      double next = up_[l] * mu * p - down_[l] * before;
+      before = p;
+      p = next;
+    }
+  }
+
+  std::size_t functions_;
+  int degree_;
+  std::vector<double> chi_;        ///< [l][function]
+  std::vector<double> up_, down_;  ///< of the polynomials' recurrence
+};
 
 }  // namespace
 
-std::vector<double> tabulated_coefficients(const std::vector<double>& angle_rad,
-                                           const std::vector<double>& values, int degree) {
-  std::vector<double> chi(degree + 1, 0.0);
+std::vector<std::vector<double>> tabulated_coefficients(
+    const std::vector<double>& angle_rad, const std::vector<std::vector<double>>& values,
+    int degree) {
+  IntervalSums sums(values.size(), degree);
+  std::vector<double> low(values.size()), high(values.size());
   for (std::size_t i = 0; i + 1 < angle_rad.size(); ++i) {
-    add_interval(angle_rad[i], angle_rad[i + 1], values[i], values[i + 1], chi);
+    for (std::size_t f = 0; f < values.size(); ++f) {
+      low[f] = values[f][i];
+      high[f] = values[f][i + 1];
+    }
+    sums.add(angle_rad[i], angle_rad[i + 1], low, high);
   }
-  return chi;
+  return sums.take();
 }
 
 }  // namespace cyanometer

@@ -14,8 +14,10 @@ std::vector<double> henyey_greenstein_coefficients(double g, int degree);
 /// In closed form: [Cornette and Shanks 1992, eq. 8] is Henyey and Greenstein's function times
 /// 3 (1 + mu^2) / (2 (2 + g^2)), and mu^2 P_l is a sum of three Legendre polynomials.
 std::vector<double> cornette_shanks_coefficients(double g, int degree);
-/// Of a table as it is interpolated (phase.h), by quadrature between its nodes.
-std::vector<double> tabulated_coefficients(const std::vector<double>& angle_rad,
-                                           const std::vector<double>& values, int degree);
+/// Of tables of several functions of the same angles, as they are interpolated (phase.h), by
+/// quadrature between their nodes. @param values [function][angle] @returns [function][l]
+std::vector<std::vector<double>> tabulated_coefficients(
+    const std::vector<double>& angle_rad, const std::vector<std::vector<double>>& values,
+    int degree);
 
 }  // namespace cyanometer

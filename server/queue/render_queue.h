@@ -92,6 +92,8 @@ class RenderQueue {
   DeviceDescription device() const;
 
   std::size_t depth() const;
+  /// Whether a job is on the device, or holds it while its client has left.
+  bool busy() const { return jobs_open_ > 0; }
   std::size_t capacity() const { return options_.capacity; }
   /// Of the places, those that one client may hold, so that some are left for the others.
   std::size_t share() const { return options_.capacity - options_.capacity / 4; }
@@ -140,7 +142,7 @@ class RenderQueue {
   std::optional<DeviceDescription> device_;
   std::string failure_;
   int losses_in_a_row_ = 0;
-  int jobs_open_ = 0;  ///< on the device's thread, one within the other
+  std::atomic<int> jobs_open_ = 0;  ///< on the device's thread, one within the other
   std::unique_ptr<Engine> engine_;
   std::thread thread_;
 };

@@ -33,6 +33,8 @@ std::string metrics_of(Service& service) {
                service.queue.depth());
   out += value("cyanometer_queue_capacity", "gauge", "Jobs that may wait.",
                service.queue.capacity());
+  out += value("cyanometer_device_busy", "gauge", "1 while a job is on the device.",
+               service.queue.busy() ? 1 : 0);
   out += value("cyanometer_jobs_total", "counter", "Jobs done on the device.", counts.done);
   out += value("cyanometer_rejected_total", "counter", "Jobs refused by a full queue.",
                counts.rejected);

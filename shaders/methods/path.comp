@@ -15,7 +15,7 @@ layout(std430, binding = OWN + 1) restrict buffer WalkBuffer { Vec4 walks[]; };
 layout(std430, binding = OWN + 2) restrict buffer CountBuffer { ivec4 counts[]; };
 // By lane: sums over finished blocks and over the block in progress, each of inscatter and of ground.
 layout(std430, binding = OWN + 3) restrict buffer SumBuffer { Vec4 sums[]; };
-layout(std430, binding = OWN + 4) restrict buffer UnfinishedBuffer { uint unfinished; };
+layout(std430, binding = OWN + 4) restrict buffer UnfinishedBuffer { uint unfinished; };  // lanes
 
 #include "methods/path.glsl"
 
@@ -100,7 +100,7 @@ void main() {
     }
   }
 
-  if (count.x < walks_of_lane) atomicOr(unfinished, 1u);
+  if (count.x < walks_of_lane) atomicAdd(unfinished, 1u);
   walks[lane] = Vec4(walk.direction, walk.altitude_km);
   walks[lanes + lane] = Vec4(walk.sun, walk.strength);
   UNROLL for (int g = 0; g < GROUPS; ++g) {

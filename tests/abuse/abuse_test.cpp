@@ -175,6 +175,53 @@ TEST(Abuse, ConnectionsThatDoNothingOrLittle) {
   EXPECT_LT(ms_since(left), 1000);
 }
 
+/// Work that takes seconds, of all kinds: marches, walks, tables, plans of new planets.
+json long_work(std::size_t kind, int n) {
+  const std::vector<json> methods{
+      {{"name", "nishita"}, {"view_samples", 1000}, {"light_samples", 500}},
+      {{"name", "raymarch"}, {"view_nodes", 32}},
+      {{"name", "path"}, {"samples_per_pixel", 4096}},
+      {{"name", "bruneton"}},
+      {{"name", "moments"}, {"degree", 12}},
+      {{"name", "hillaire"}, {"multiple_suns", 128}},
+      {{"name", "auto"}, {"max_error", 0.001}}};
+  return {{"method", methods[kind % methods.size()]},
+          {"preset", n % 2 ? "mars" : "earth"},
+          {"planet", {{"ground_albedo", 0.1 + 1e-4 * n}}},
+          {"spectrum", {{"wavelengths_nm", {680, 600, 550, 500, 440, 400}}}},
+          {"image", {{"width", 3840}, {"height", 2160}}}};
+}
+
+TEST(Abuse, ClientsThatLeave) {
+  const int leavers = number_from_environment("CYANOMETER_LEAVERS", 42);
+  Served served;
+  std::mt19937 random(1);
+  std::vector<double> times;
+  for (int n = 0; n < leavers; ++n) {
+    const json scene = long_work(static_cast<std::size_t>(n), n);
+    const std::string body = scene.dump();
+    Crowd client(served.port, 1);
+    client.send("POST /v1/render HTTP/1.1\r\nHost: h\r\nContent-Length: " +
+                std::to_string(body.size()) + "\r\n\r\n" + body);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300 + random() % 900));
+    if (served.metric("cyanometer_device_busy") < 1) continue;  // between plan and frame
+    const auto left = Clock::now();
+    client.leave();
+    while (served.metric("cyanometer_device_busy") > 0 && ms_since(left) < 10000) {
+      std::this_thread::sleep_for(1ms);
+    }
+    times.push_back(ms_since(left));
+    std::printf("%s: %.0f ms\n", scene["method"]["name"].get<std::string>().c_str(),
+                times.back());
+  }
+  ASSERT_GT(times.size(), 0.8 * leavers);
+  std::printf(
+      "%zu clients left: the device was free after %.0f ms (median), %.0f ms (95 %%), "
+      "%.0f ms (worst)\n",
+      times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 1));
+  EXPECT_LT(quantile(times, 0.95), 100);
+}
+
 /// Everything that came on one connection after a request, to its end.
 std::string ask_once(int port, const std::string& request) {
   sockaddr_in address{};

@@ -491,8 +491,8 @@ TEST(Operations, HealthReadinessAndMetricsAreAnswered) {
   for (const auto* name :
        {"cyanometer_http_requests_total{route=\"/v1/render\",method=\"POST\",status=\"200\"}",
         "cyanometer_http_request_duration_seconds_bucket", "cyanometer_queue_depth 0",
-        "cyanometer_jobs_total", "cyanometer_rejected_total", "cyanometer_cancelled_total",
-        "cyanometer_build_info{version=",
+        "cyanometer_device_busy 0", "cyanometer_jobs_total", "cyanometer_rejected_total",
+        "cyanometer_cancelled_total", "cyanometer_build_info{version=",
         "cyanometer_stage_duration_seconds_sum{stage=\"encode\"}", "cyanometer_ready 1"}) {
     EXPECT_NE(metrics->body.find(name), std::string::npos) << name;
   }

@@ -36,9 +36,10 @@ class MomentReference {
     for (const Medium* medium : packed_media(problem)) {
       auto& chi = chi_.emplace_back(P::MOST_TERMS, Value(0));
       bool scatters = std::ranges::max(medium->scattering_per_km) > 0;
+      auto all = legendre_coefficients(medium->phase, problem.wavelengths_nm.size(),
+                                       P::MOST_TERMS - 1);
       for (int w = 0; scatters && w < static_cast<int>(problem.wavelengths_nm.size()); ++w) {
-        auto all = legendre_coefficients(medium->phase, w, P::MOST_TERMS - 1);
-        for (int l = 0; l < P::MOST_TERMS; ++l) chi[l][w] = all[l];
+        for (int l = 0; l < P::MOST_TERMS; ++l) chi[l][w] = all[w][l];
       }
     }
     for (int i = 0; i < size_.altitudes; ++i) add_rays(i);

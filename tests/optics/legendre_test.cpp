@@ -71,13 +71,22 @@ TEST(LegendreCoefficients, OfATableAreThoseOfTheFunctionThatWasTabulated) {
     angle.push_back(pi * i / 1800);
     values.push_back(henyey_greenstein(0.8, std::cos(angle.back())));
   }
-  expect_near(tabulated_coefficients(angle, normalised_phase(angle, values), 60),
+  expect_near(tabulated_coefficients(angle, {normalised_phase(angle, values)}, 60)[0],
               henyey_greenstein_coefficients(0.8, 60), 1e-5);
+}
+
+TEST(LegendreCoefficients, OfSeveralTablesAreThoseOfEach) {
+  std::vector<double> angle{0, 0.02, 0.3, 1.1, 2.0, pi};
+  std::vector<double> sharp{900, 40, 3, 0.1, 0.02, 0.3}, zero{0, 0.1, 0, 2, 0, 0.4};
+  auto both = tabulated_coefficients(angle, {sharp, zero}, 40);
+  expect_near(both[0], tabulated_coefficients(angle, {sharp}, 40)[0], 1e-7);
+  expect_near(both[1], tabulated_coefficients(angle, {zero}, 40)[0], 1e-7);
 }
 
 TEST(LegendreCoefficients, BeginWithOneForAnyNormalisedTable) {
   std::vector<double> angle{0, 0.3, 1.1, 2.0, pi}, values{3, 0, 0.2, 0.1, 0.4};
-  EXPECT_NEAR(tabulated_coefficients(angle, normalised_phase(angle, values), 4)[0], 1, 1e-7);
+  EXPECT_NEAR(tabulated_coefficients(angle, {normalised_phase(angle, values)}, 4)[0][0], 1,
+              1e-7);
 }
 
 }  // namespace

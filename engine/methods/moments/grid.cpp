@@ -79,19 +79,21 @@ int degree_for(const Problem& problem) {
   constexpr int molecules = 2, lowest = 4, highest = 8;
   constexpr double most_left_out = 0.004;
   if (std::ranges::none_of(problem.media, is_particle)) return molecules;
-  int degree = lowest;
-  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
-    std::vector<double> left_out(highest + 2);
-    double depth = 0;
-    for (const Medium& medium : problem.media) {
-      double column = column_km(medium.profile, problem.thickness_km);
+  std::size_t wavelengths = problem.wavelengths_nm.size();
+  std::vector left_out(wavelengths, std::vector<double>(highest + 2));
+  std::vector<double> depth(wavelengths);
+  for (const Medium& medium : problem.media) {
+    double column = column_km(medium.profile, problem.thickness_km);
+    auto chi = legendre_coefficients(medium.phase, wavelengths, highest + 1);
+    for (std::size_t w = 0; w < wavelengths; ++w) {
       double scattering = medium.scattering_per_km[w];
-      depth += (scattering + medium.absorption_per_km[w]) * column;
-      if (scattering <= 0) continue;
-      auto chi = legendre_coefficients(medium.phase, w, highest + 1);
-      for (int l = 0; l < highest + 2; ++l) left_out[l] += scattering * column * chi[l];
+      depth[w] += (scattering + medium.absorption_per_km[w]) * column;
+      for (int l = 0; l < highest + 2; ++l) left_out[w][l] += scattering * column * chi[w][l];
     }
-    while (degree < highest && left_out[degree + 1] * std::exp(-depth) > most_left_out) {
+  }
+  int degree = lowest;
+  for (std::size_t w = 0; w < wavelengths; ++w) {
+    while (degree < highest && left_out[w][degree + 1] * std::exp(-depth[w]) > most_left_out) {
       degree += 2;
     }
   }
@@ -99,23 +101,19 @@ int degree_for(const Problem& problem) {
 }
 
 int orders_until_geometric(const Problem& problem) {
-  double largest = 0;
-  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
-    double depth = 0;  // of scattering, less half of what goes on forward
-    for (const Medium& medium : problem.media) {
-      double scattering = medium.scattering_per_km[w];
-      if (scattering <= 0) continue;
-      double g = 0;
-      if (auto* hg = std::get_if<HenyeyGreenstein>(&medium.phase)) g = hg->g;
-      if (auto* cs = std::get_if<CornetteShanks>(&medium.phase)) g = cs->g;
-      if (auto* table = std::get_if<TabulatedPhase>(&medium.phase)) {
-        g = tabulated_coefficients(table->angle_rad, table->values[w], 1)[1];
-      }
-      depth += scattering * column_km(medium.profile, problem.thickness_km) *
-               (1 - std::max(g, 0.0) / 2);
+  std::size_t wavelengths = problem.wavelengths_nm.size();
+  std::vector<double> depth(wavelengths);  // of scattering, less half of what goes on forward
+  for (const Medium& medium : problem.media) {
+    double column = column_km(medium.profile, problem.thickness_km);
+    auto chi = legendre_coefficients(medium.phase, wavelengths, 1);
+    for (std::size_t w = 0; w < wavelengths; ++w) {
+      depth[w] += medium.scattering_per_km[w] * column * (1 - std::max(chi[w][1], 0.0) / 2);
     }
+  }
+  double largest = 0;
+  for (std::size_t w = 0; w < wavelengths; ++w) {
     // About what a layer and the ground under it send back to each other.
-    double air = 1.5 * depth / (1 + 1.5 * depth);
+    double air = 1.5 * depth[w] / (1 + 1.5 * depth[w]);
     largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
   }
   // Three at least: light goes from the sun to the ground, to the air, and back to the ground;

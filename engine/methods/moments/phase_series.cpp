@@ -27,11 +27,7 @@ double kept_share(int l, int degree) {
 using Coefficients = std::vector<std::vector<double>>;  ///< [wavelength][l]
 
 Coefficients coefficients_of(const Medium& medium, int degree) {
-  Coefficients all;
-  for (std::size_t w = 0; w < medium.scattering_per_km.size(); ++w) {
-    all.push_back(legendre_coefficients(medium.phase, w, degree));
-  }
-  return all;
+  return legendre_coefficients(medium.phase, medium.scattering_per_km.size(), degree);
 }
 
 /// Twice as many terms until the last one is nothing.
@@ -144,20 +140,22 @@ bool is_particle(const Medium& medium) {
          std::ranges::any_of(medium.scattering_per_km, [](double s) { return s > 0; });
 }
 
-std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
-                                          int degree) {
-  if (auto* rayleigh = std::get_if<RayleighPhase>(&phase)) {
-    return rayleigh_coefficients(rayleigh->gamma.empty() ? 0 : rayleigh->gamma[wavelength],
-                                 degree);
+std::vector<std::vector<double>> legendre_coefficients(const PhaseFunction& phase,
+                                                       std::size_t wavelengths, int degree) {
+  if (auto* table = std::get_if<TabulatedPhase>(&phase)) {
+    return tabulated_coefficients(table->angle_rad, table->values, degree);
   }
-  if (auto* hg = std::get_if<HenyeyGreenstein>(&phase)) {
-    return henyey_greenstein_coefficients(hg->g, degree);
+  std::vector<std::vector<double>> all(wavelengths);
+  for (std::size_t w = 0; w < wavelengths; ++w) {
+    if (auto* rayleigh = std::get_if<RayleighPhase>(&phase)) {
+      all[w] = rayleigh_coefficients(rayleigh->gamma.empty() ? 0 : rayleigh->gamma[w], degree);
+    } else if (auto* hg = std::get_if<HenyeyGreenstein>(&phase)) {
+      all[w] = henyey_greenstein_coefficients(hg->g, degree);
+    } else {
+      all[w] = cornette_shanks_coefficients(std::get<CornetteShanks>(phase).g, degree);
+    }
   }
-  if (auto* cs = std::get_if<CornetteShanks>(&phase)) {
-    return cornette_shanks_coefficients(cs->g, degree);
-  }
-  const TabulatedPhase& table = std::get<TabulatedPhase>(phase);
-  return tabulated_coefficients(table.angle_rad, table.values[wavelength], degree);
+  return all;
 }
 
 PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks) {

@@ -22,9 +22,10 @@ struct PhaseSeries {
 /// Whether the medium scatters, and not as molecules do, whose functions end with P_2.
 bool is_particle(const Medium& medium);
 
-/// Legendre coefficients chi_0 to chi_degree at one of the problem's wavelengths.
-std::vector<double> legendre_coefficients(const PhaseFunction& phase, std::size_t wavelength,
-                                          int degree);
+/// Legendre coefficients chi_0 to chi_degree at each of the problem's wavelengths.
+/// @returns [wavelength][l]
+std::vector<std::vector<double>> legendre_coefficients(const PhaseFunction& phase,
+                                                       std::size_t wavelengths, int degree);
 
 /// @param degree  of the moments, L
 /// @param peaks   whether half of chi_(L+1) counts as a peak that goes straight on [Wiscombe

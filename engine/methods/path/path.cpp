@@ -163,17 +163,22 @@ class PathTracing final : public Method {
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
     constants.push_back(guided);
-    std::int64_t lanes = lanes_of(push), cost = lanes * cost_of_step(scene.media());
+    std::int64_t lanes = lanes_of(push), walking = lanes;
     std::int64_t most = std::max<std::int64_t>(usual_loop_iterations / loops_of_step(scene), 1);
-    do {
+    while (walking > 0) {
+      std::int64_t step = walking * cost_of_step(scene.media());
       push.steps = static_cast<int>(
-          std::clamp<std::int64_t>(tracer.pacer.evaluations() / cost, 1, most));
+          std::clamp<std::int64_t>(tracer.pacer.evaluations() / step, 1, most));
       tracer.commands.fill(*work.unfinished, 0);
       tracer.commands.dispatch(walk_, constants, bindings, vulkan::bytes_of(push),
                                {vulkan::groups_for(lanes, 64)});
-      tracer.pacer.took(cost * push.steps, tracer.submit());
+      double ms = tracer.submit();
+      std::int64_t still = (*work.unfinished).as<std::uint32_t>()[0];
+      // What ends in between is told apart so far: half of those that end have not walked.
+      tracer.pacer.took(step * push.steps * (walking + still) / (2 * walking), ms);
+      walking = still;
       push.fresh = 0;
-    } while ((*work.unfinished).as<std::uint32_t>()[0] != 0);
+    }
   }
 
   std::unique_ptr<Method> first_order_;
