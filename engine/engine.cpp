@@ -61,12 +61,25 @@ std::vector<int> stratified_pixels(Physics<double>& camera, int count) {
   return pixels;
 }
 
-std::vector<glm::dvec3> stratified_rays(Physics<double>& camera, int count) {
+/// Rays that are traced by themselves, as from a list.
+struct Rays {
   std::vector<glm::dvec3> directions;
+  std::vector<float> ends_km = {};   ///< none where all go on as far as they can
+  std::vector<Triple> colours = {};  ///< of what stands at the ends, R, G, B
+};
+
+/// @param picture  where the rays of all pixels end, if anywhere
+Rays stratified_rays(Physics<double>& camera, int count, const Picture* picture) {
+  Rays rays;
   for (int pixel : stratified_pixels(camera, count)) {
-    directions.push_back(camera.pixel_ray(pixel).direction);
+    rays.directions.push_back(camera.pixel_ray(pixel).direction);
+    if (!picture) continue;
+    auto at = static_cast<std::size_t>(pixel);
+    const auto& rgb = picture->rgb;
+    rays.ends_km.push_back(picture->distance_km[at]);
+    rays.colours.push_back({rgb[0][at], rgb[1][at], rgb[2][at]});
   }
-  return directions;
+  return rays;
 }
 
 /// Radiance of the channels in which errors are measured: X, Y, Z or the wavelengths
@@ -81,6 +94,46 @@ Samples in_error_channels(const Samples& radiance, const Scene& scene, const Out
     }
   }
   return result;
+}
+
+/// Wavelengths that hold the transmittance of a channel to 1e-3 (tests/composite).
+constexpr int transmittance_wavelengths = 24;
+
+std::vector<double> wavelengths_of_transmittance(const Scene& scene) {
+  return scene.spectrum.wavelengths_nm.empty() ? colour_wavelengths(transmittance_wavelengths)
+                                               : scene.spectrum.wavelengths_nm;
+}
+
+/// What stands at the ends of rays, as the air before it leaves it, in the channels in which
+/// errors are measured.
+Samples picture_light(const Scene& scene, const Rays& rays) {
+  std::vector<double> wavelengths = wavelengths_of_transmittance(scene);
+  Output output = make_output(scene, wavelengths);
+  auto rows = transmittance_rows(output);
+  Physics<double> p = pack<double>(make_problem(scene, wavelengths));
+  set_directions(p, rays.directions);
+  p.ends_km.assign(rays.ends_km.begin(), rays.ends_km.end());
+  p.scene.ends = static_cast<int>(p.ends_km.size());
+  Samples light;
+  for (std::size_t i = 0; i < rays.directions.size(); ++i) {
+    int ray = static_cast<int>(i);
+    auto path = p.path_of_ray(ray, p.pixel_ray(ray));
+    double column[Physics<double>::MEDIA_SIZE];
+    p.columns_along(path.altitude_km, path.mu, path.length_km, column);
+    Triple seen{};
+    for (std::size_t w = 0; !path.meets_ground && w < wavelengths.size(); ++w) {
+      int group = static_cast<int>(w / 4), lane = static_cast<int>(w % 4);
+      double transmittance = p.transmittance_of(column, group)[lane];
+      for (std::size_t c = 0; c < 3; ++c) {
+        seen[c] += rows[c][w] * transmittance * rays.colours[i][c];
+      }
+    }
+    bool cie = scene.spectrum.colour == Colour::cie;
+    if (cie) seen = xyz_from_rec709() * seen;
+    for (std::size_t c = 0; !cie && c < 3; ++c) seen[c] /= output.irradiance[c];
+    light.emplace_back(seen.begin(), seen.end());
+  }
+  return light;
 }
 
 /// The scene's wavelengths, or a few where it leaves the choice.
@@ -182,15 +235,17 @@ struct Engine::Parts {
     return {device, commands, pacer, tables, watch};
   }
 
-  /// All wavelengths; the rays are `directions`, or the camera's where there are none.
-  std::vector<Batch> upload(const Problem& problem,
-                            const std::vector<glm::dvec3>& directions = {}) {
+  /// All wavelengths; the rays are those given, or the camera's where no directions are.
+  /// @param most  wavelengths of a batch
+  std::vector<Batch> upload(const Problem& problem, const Rays& rays = {},
+                            std::size_t most = wavelengths_at_once) {
+    auto ends =
+        rays.ends_km.empty() ? nullptr : std::make_shared<const RayEnds>(device, rays.ends_km);
     std::vector<Batch> batches;
     std::size_t count = problem.wavelengths_nm.size();
-    for (std::size_t first = 0; first < count; first += wavelengths_at_once) {
-      Problem part =
-          at_wavelengths(problem, first, std::min(wavelengths_at_once, count - first));
-      batches.push_back({first, UploadedScene(device, part, directions)});
+    for (std::size_t first = 0; first < count; first += most) {
+      Problem part = at_wavelengths(problem, first, std::min(most, count - first));
+      batches.push_back({first, UploadedScene(device, part, rays.directions, ends)});
     }
     return batches;
   }
@@ -214,17 +269,17 @@ struct Engine::Parts {
     }
   }
 
-  Traced trace_directions(const Problem& problem, const std::vector<glm::dvec3>& directions,
-                          const std::string& method_name, const MethodOptions& options,
-                          const Watch& watch) {
+  Traced trace_rays(const Problem& problem, const Rays& rays, const std::string& method_name,
+                    const MethodOptions& options, const Watch& watch) {
     Traced traced;
+    const std::vector<glm::dvec3>& directions = rays.directions;
     if (directions.empty()) return traced;
     std::vector<double> dark(problem.wavelengths_nm.size(), 0.0);
     traced.radiance.assign(directions.size(), dark);
     traced.transmittance.assign(directions.size(), dark);
     bool random = method(method_name).description().random;
     if (random) traced.standard_error.assign(directions.size(), dark);
-    std::vector<Batch> batches = upload(problem, directions);
+    std::vector<Batch> batches = upload(problem, rays);
     Tracer tracer = this->tracer(method_name, watch);
     auto read = [&](std::size_t b, const Tile& tile) {
       const Batch& batch = batches[b];
@@ -250,41 +305,69 @@ struct Engine::Parts {
     return traced;
   }
 
-  Plan plan(const Scene& scene, const std::vector<glm::dvec3>& directions, double rays,
-            const Watch& watch) {
+  /// @param probes  some of the rays
+  Plan plan(const Scene& scene, const Rays& probes, double rays, const Watch& watch) {
+    bool parts = !probes.ends_km.empty();
+    Samples light = parts ? picture_light(scene, probes) : Samples{};
     TraceProbe probe = [&](const std::string& name, const MethodOptions& options,
                            const std::vector<double>& wavelengths) {
       Problem problem = make_problem(scene, wavelengths);
       Watch quiet = watch;
       quiet.progress = [](double) {};
-      Traced traced = trace_directions(problem, directions, name, options, quiet);
-      return in_error_channels(traced.radiance, scene, make_output(scene, wavelengths));
+      Traced traced = trace_rays(problem, probes, name, options, quiet);
+      Samples seen = in_error_channels(traced.radiance, scene, make_output(scene, wavelengths));
+      for (std::size_t i = 0; i < light.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) seen[i][c] += light[i][c];
+      }
+      return seen;
     };
-    return make_plan({scene, rays, methods, profile, probe});
+    return make_plan({scene, rays, methods, profile, probe, parts});
   }
 
   /// Of frames that are nearly alike one is planned for all, unless this very one is to be
   /// verified.
   Plan plan_frame(const Scene& scene, const Watch& watch) {
     if (scene.method.verify) return plan_this_frame(scene, watch);
-    constexpr std::size_t most_plans = 4096;
     Scene alike = nearby(scene);
-    std::string key = canonical(alike).dump();
+    return known_plan(canonical(alike).dump(), [&] { return plan_this_frame(alike, watch); });
+  }
+
+  /// The plan of one picture holds for no other.
+  Plan plan_composite(const Scene& scene, const Picture& picture, const Watch& watch) {
+    Rays rays = probes_of(scene, &picture);
+    auto ends = std::as_bytes(std::span(rays.ends_km));
+    std::string key(reinterpret_cast<const char*>(ends.data()), ends.size());
+    return known_plan(canonical(scene).dump() + key,
+                      [&] { return plan(scene, rays, pixels_of(scene), watch); });
+  }
+
+  template <class Make>
+  Plan known_plan(const std::string& key, Make make) {
+    constexpr std::size_t most_plans = 4096;
     if (auto known = plans.find(key); known != plans.end()) return known->second;
     if (plans.size() >= most_plans) plans.clear();
-    Plan plan = plan_this_frame(alike, watch);
+    Plan plan = make();
     return plans[key] = std::move(plan);
   }
 
-  Plan plan_this_frame(const Scene& scene, const Watch& watch) {
+  static double pixels_of(const Scene& scene) {
+    return static_cast<double>(scene.image.width) * scene.image.height;
+  }
+
+  static Rays probes_of(const Scene& scene, const Picture* picture) {
     Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
-    double rays = static_cast<double>(scene.image.width) * scene.image.height;
-    return plan(scene, stratified_rays(camera, probes), rays, watch);
+    return stratified_rays(camera, probes, picture);
+  }
+
+  Plan plan_this_frame(const Scene& scene, const Watch& watch) {
+    return plan(scene, probes_of(scene, nullptr), pixels_of(scene), watch);
   }
 
   void trace_frame(const Problem& problem, const Plan& plan,
-                   const std::vector<PlaneGroup>& groups, const Watch& watch, Frame& frame,
-                   FrameStore& store);
+                   const std::vector<PlaneGroup>& groups, const Picture* picture,
+                   const Watch& watch, Frame& frame, FrameStore& store);
+  void overlay(const Scene& scene, const std::vector<PlaneGroup>& groups,
+               const Picture& picture, const Watch& watch, Frame& frame, FrameStore& store);
   void display(const Scene& scene, const Output& output, const Watch& watch, Frame& frame,
                FrameStore& store);
 };
@@ -303,16 +386,24 @@ Plan Engine::plan(const Scene& scene, const Watch& watch) {
 }
 
 double Engine::expected_ms(const Scene& scene, const Plan& plan) {
-  double rays = static_cast<double>(scene.image.width) * scene.image.height;
   return cyanometer::expected_ms(parts_->profile, parts_->method(plan.method), plan.options,
-                                 make_problem(scene, some_wavelengths_of(scene)), rays,
-                                 plan.wavelengths_nm.size());
+                                 make_problem(scene, some_wavelengths_of(scene)),
+                                 Parts::pixels_of(scene), plan.wavelengths_nm.size());
 }
 
+namespace {
+
+/// The camera's rays, as a picture ends them.
+Rays rays_of(const Picture* picture) {
+  return picture ? Rays{{}, picture->distance_km} : Rays{};
+}
+
+}  // namespace
+
 void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
-                                const std::vector<PlaneGroup>& groups, const Watch& watch,
-                                Frame& frame, FrameStore& store) {
-  std::vector<Batch> batches = upload(problem);
+                                const std::vector<PlaneGroup>& groups, const Picture* picture,
+                                const Watch& watch, Frame& frame, FrameStore& store) {
+  std::vector<Batch> batches = upload(problem, rays_of(picture));
   std::vector<Compositor::Job> jobs;
   for (const Batch& batch : batches) {
     jobs.push_back(compositor.prepare(device, batch.scene, groups, batch.first,
@@ -325,6 +416,25 @@ void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
   };
   trace_tiles(tracer, plan.method, plan.options, batches, static_cast<int>(store.pixels),
               compose);
+  frame.render_ms += tracer.device_ms;
+}
+
+void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& groups,
+                            const Picture& picture, const Watch& watch, Frame& frame,
+                            FrameStore& store) {
+  std::vector<double> wavelengths = wavelengths_of_transmittance(scene);
+  std::vector<UploadedScene> scenes;
+  for (Batch& batch :
+       upload(make_problem(scene, wavelengths), rays_of(&picture), transmittance_wavelengths)) {
+    scenes.push_back(std::move(batch.scene));
+  }
+  std::array<double, 3> luminance{1. / 3, 1. / 3, 1. / 3};
+  if (scene.spectrum.colour == Colour::cie) {
+    std::ranges::copy_n(xyz_from_rec709().begin() + 3, 3, luminance.begin());
+  }
+  Tracer tracer = this->tracer(watch);
+  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)),
+                     picture, groups, luminance, store);
   frame.render_ms += tracer.device_ms;
 }
 
@@ -350,6 +460,29 @@ Frame Engine::render(const Scene& scene, const Watch& watch) {
 }
 
 Frame Engine::render(const Scene& scene, const Plan& plan, const Watch& watch) {
+  return render(scene, plan, nullptr, watch);
+}
+
+Plan Engine::plan(const Scene& scene, const Picture& picture, const Watch& watch) {
+  return parts_->plan_composite(scene, picture, watch);
+}
+
+Frame Engine::composite(const Scene& scene, const Picture& picture, const Watch& watch) {
+  auto start = Clock::now();
+  Plan plan = this->plan(scene, picture, watch);
+  double planning_ms = ms_since(start);
+  Frame frame = composite(scene, picture, plan, watch);
+  frame.prepare_ms += planning_ms;
+  return frame;
+}
+
+Frame Engine::composite(const Scene& scene, const Picture& picture, const Plan& plan,
+                        const Watch& watch) {
+  return render(scene, plan, &picture, watch);
+}
+
+Frame Engine::render(const Scene& scene, const Plan& plan, const Picture* picture,
+                     const Watch& watch) {
   auto start = Clock::now();
   Frame frame;
   frame.width = scene.image.width;
@@ -357,14 +490,16 @@ Frame Engine::render(const Scene& scene, const Plan& plan, const Watch& watch) {
   frame.plan = plan;
   Problem problem = make_problem(scene, frame.plan.wavelengths_nm);
   Output output = make_output(scene, frame.plan.wavelengths_nm);
-  std::vector<PlaneGroup> groups = plane_groups(scene, problem, output);
+  std::vector<PlaneGroup> groups =
+      picture ? composite_groups(scene, problem, output) : plane_groups(scene, problem, output);
   auto store = std::make_shared<FrameStore>(
       parts_->device, static_cast<std::size_t>(frame.width) * frame.height, groups.size(),
       encoding(scene.image.format).displayed);
   frame.prepare_ms = ms_since(start);
   auto rendering = Clock::now();
   double tables_before = parts_->tables.making_ms();
-  parts_->trace_frame(problem, frame.plan, groups, watch, frame, *store);
+  parts_->trace_frame(problem, frame.plan, groups, picture, watch, frame, *store);
+  if (picture) parts_->overlay(scene, groups, *picture, watch, frame, *store);
   double tables_ms = parts_->tables.making_ms() - tables_before;
   parts_->display(scene, output, watch, frame, *store);
   frame.prepare_ms += tables_ms;
@@ -436,7 +571,7 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   std::vector<glm::dvec3> rays = unit_vectors(directions);
   std::vector<glm::dvec3> probe(
       rays.begin(), rays.begin() + std::min<std::ptrdiff_t>(probes, std::ssize(rays)));
-  Plan plan = parts_->plan(spectral, probe, static_cast<double>(rays.size()), watch);
+  Plan plan = parts_->plan(spectral, {probe}, static_cast<double>(rays.size()), watch);
   double planning_ms = ms_since(start);
   Radiances result = radiance(scene, directions, irradiance, plan, watch);
   result.prepare_ms += planning_ms;
@@ -456,8 +591,8 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   auto rendering = Clock::now();
   double tables_before = parts_->tables.making_ms();
   auto trace = [&](const std::vector<glm::dvec3>& towards) {
-    return parts_->trace_directions(problem, towards, result.plan.method, result.plan.options,
-                                    watch);
+    return parts_->trace_rays(problem, {towards}, result.plan.method, result.plan.options,
+                              watch);
   };
   Parts::Traced traced = trace(rays);
   result.radiance = std::move(traced.radiance);

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/picture.h"
 #include "engine/scene/scene.h"
 
 namespace cyanometer {
@@ -160,8 +161,18 @@ class Engine {
   Frame render(const Scene& scene, const Watch& watch = {});
   Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
                      bool irradiance, const Watch& watch = {});
-  /// The same two by a plan that is given: nothing is measured for them, and the error that
-  /// they state is the plan's.
+  /// A client's picture of the frame's size as the scene's air leaves it, in the frame's light:
+  /// what stands at the end of a ray hides ground, disc and stars behind it; where nothing
+  /// does, the frame is the plain one, and the picture's background lies beyond the air, with
+  /// the stars. The transmittance is exact to 1e-3 whatever is asked; the error is that of the
+  /// air's light.
+  Frame composite(const Scene& scene, const Picture& picture, const Watch& watch = {});
+  Plan plan(const Scene& scene, const Picture& picture, const Watch& watch = {});
+  Frame composite(const Scene& scene, const Picture& picture, const Plan& plan,
+                  const Watch& watch = {});
+
+  /// These two by a plan that is given: nothing is measured for them, and the error that they
+  /// state is the plan's.
   Frame render(const Scene& scene, const Plan& plan, const Watch& watch = {});
   Radiances radiance(const Scene& scene, const std::vector<Direction>& directions,
                      bool irradiance, const Plan& plan, const Watch& watch = {});
@@ -190,6 +201,9 @@ class Engine {
   std::map<std::string, double> measure_profile(const Watch& watch = {});
 
  private:
+  Frame render(const Scene& scene, const Plan& plan, const Picture* picture,
+               const Watch& watch);
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -24,7 +24,7 @@ struct Config {
   double max_samples = 16777216;
   double max_device_s = 3600;
   int max_frames = 3600;
-  double max_body_mb = 4;
+  double max_body_mb = 64;
   double frame_memory_mb = 2048;
   double cache_mb = 256;
   std::string token;

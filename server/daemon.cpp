@@ -1,5 +1,7 @@
 #include "server/daemon.h"
 
+#include <algorithm>
+
 namespace cyanometer {
 namespace {
 
@@ -7,6 +9,8 @@ constexpr std::size_t ops_connections = 32;
 
 HttpServer::Options options(const Config& config, ConnectionLimits limits) {
   limits.body_bytes = config.body_bytes();
+  limits.bodies = std::make_shared<BodyBudget>();
+  limits.bodies->most_bytes = std::max(config.frame_bytes(), config.body_bytes());
   return {.limits = limits, .connections = static_cast<std::size_t>(config.threads)};
 }
 

@@ -54,7 +54,9 @@ layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_va
 layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
 layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
 layout(std430, binding = 8) restrict readonly buffer QuadratureBuffer { Vec2 quadrature[]; };
-#define OWN 9  // a shader's own bindings: OWN, OWN + 1, ...
+// Where rays end, km from the camera: one for all, or one a ray.
+layout(std430, binding = 9) restrict readonly buffer EndBuffer { Real ends_km[]; };
+#define OWN 10  // a shader's own bindings: OWN, OWN + 1, ...
 
 // What is used in loops is read once into registers: on software devices a load from a buffer costs more
 // than an exponential. A shader's main() begins with load_scene(), and load_media() where it marches.

@@ -200,22 +200,6 @@ double share_of_bands(Engine& engine, const Scene& scene, const std::vector<Cont
 
 }  // namespace
 
-ExrImage read_frame(std::string_view bytes, const Scene& scene) {
-  ExrImage image = read_exr(bytes, {"R", "G", "B"}, scene.image.width, scene.image.height);
-  if (scene.spectrum.colour != Colour::cie) return image;
-  if (!image.rec709) {
-    throw ImageError("The EXR's chromaticities are not those of Rec. 709 with white D65.");
-  }
-  double unit = make_output(scene, colour_wavelengths(4)).white_luminance;
-  if (image.white_luminance && *image.white_luminance > 0) {
-    auto scale = static_cast<float>(*image.white_luminance / unit);
-    for (std::vector<float>& plane : image.planes) {
-      for (float& value : plane) value *= scale;
-    }
-  }
-  return image;
-}
-
 Comparison judge(Engine& engine, const Scene& asked, const ExrImage& image,
                  const JudgementGoal& goal, const Watch& watch) {
   std::vector<bool> counted = counted_pixels(engine, asked, part_of(watch, 0, 0.1));

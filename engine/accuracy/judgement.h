@@ -6,14 +6,9 @@
 #include "engine/accuracy/comparison.h"
 #include "engine/accuracy/reference.h"
 #include "engine/engine.h"
-#include "engine/image/exr_reader.h"
+#include "engine/image/picture.h"
 
 namespace cyanometer {
-
-/// R, G, B of an EXR of the frame's size in the frame's unit: one that says what its 1.0 means
-/// (whiteLuminance) is scaled to what the frame's means.
-/// @throws ImageError as read_exr does, and where colours are not of Rec. 709
-ExrImage read_frame(std::string_view bytes, const Scene& scene);
 
 /// How good the reference of a judgement must be. Where noise stays above it, walks end after
 /// some twenty seconds on two cores of a software device, and the interval says what is not

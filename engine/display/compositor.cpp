@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "engine/display/displayed.h"
+#include "engine/methods/tables/fill.h"
 #include "spirv/compose.spv.h"
 #include "spirv/display.spv.h"
+#include "spirv/overlay.spv.h"
 #include "spirv/stars.spv.h"
 
 namespace cyanometer {
@@ -18,29 +20,37 @@ struct ComposePush {
 struct StarsPush {
   std::int32_t first_ray, rays_in_tile, first_row, first_star, stars, planes;
 };
+struct OverlayPush {
+  std::array<float, 4> luminance;
+  float object, background, transmittance;
+  std::int32_t first, end;
+};
 struct DisplayPush {
   std::array<std::array<float, 4>, 3> rows;
   std::int32_t first, end;
 };
 
-/// Rows of all groups, one after another, in groups of four wavelengths from the `first` on.
-std::vector<glm::vec4> matrix_rows(const std::vector<PlaneGroup>& groups, std::size_t first,
-                                   std::size_t count) {
-  std::size_t wavelength_groups = (count + 3) / 4;
-  std::vector<glm::vec4> matrix;
-  for (const PlaneGroup& group : groups) {
-    for (const std::vector<double>& row : group.rows) {
-      for (std::size_t g = 0; g < wavelength_groups; ++g) {
-        glm::vec4 part(0);
-        for (std::size_t lane = 0; lane < 4; ++lane) {
-          std::size_t w = 4 * g + lane;
-          if (w < count && first + w < row.size()) {
-            part[static_cast<int>(lane)] = static_cast<float>(row[first + w]);
-          }
-        }
-        matrix.push_back(part);
+/// A row in groups of four wavelengths, `count` from the `first` on.
+void append_row(std::vector<glm::vec4>& matrix, const std::vector<double>& row,
+                std::size_t first, std::size_t count) {
+  for (std::size_t g = 0; g < (count + 3) / 4; ++g) {
+    glm::vec4 part(0);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      std::size_t w = 4 * g + lane;
+      if (w < count && first + w < row.size()) {
+        part[static_cast<int>(lane)] = static_cast<float>(row[first + w]);
       }
     }
+    matrix.push_back(part);
+  }
+}
+
+/// Rows of all groups, one after another.
+std::vector<glm::vec4> matrix_rows(const std::vector<PlaneGroup>& groups, std::size_t first,
+                                   std::size_t count) {
+  std::vector<glm::vec4> matrix;
+  for (const PlaneGroup& group : groups) {
+    for (const std::vector<double>& row : group.rows) append_row(matrix, row, first, count);
   }
   return matrix;
 }
@@ -100,6 +110,7 @@ double automatic_exposure_ev(std::span<const float> luminance, double white_card
 Compositor::Compositor(vulkan::Device& device)
     : compose_(device, compose_spirv, UploadedScene::bindings + 6, sizeof(ComposePush)),
       stars_(device, stars_spirv, UploadedScene::bindings + 8, sizeof(StarsPush)),
+      overlay_(device, overlay_spirv, UploadedScene::bindings + 8, sizeof(OverlayPush)),
       display_(device, display_spirv, 4, sizeof(DisplayPush)) {}
 
 Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
@@ -147,6 +158,42 @@ void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile&
                          stars,          static_cast<int>(group.channels.size())};
     commands.dispatch(stars_, job.scene.constants(), bindings, vulkan::bytes_of(stars_push),
                       {vulkan::groups_for(stars, 64)});
+  }
+}
+
+void Compositor::overlay(Tracer& tracer, const std::vector<UploadedScene>& scenes,
+                         const std::array<std::vector<double>, 3>& rows, const Picture& picture,
+                         const std::vector<PlaneGroup>& groups,
+                         const std::array<double, 3>& luminance, const FrameStore& store) {
+  std::vector<vulkan::Buffer> colours;
+  for (const std::vector<float>& plane : picture.rgb) {
+    colours.push_back(upload(tracer.device, plane));
+  }
+  std::size_t first = 0;
+  for (const UploadedScene& scene : scenes) {
+    std::size_t count = scene.problem().wavelengths_nm.size();
+    std::vector<glm::vec4> matrix;
+    for (const std::vector<double>& row : rows) append_row(matrix, row, first, count);
+    first += count;
+    vulkan::Buffer matrix_buffer = upload(tracer.device, matrix);
+    std::int64_t evaluations =
+        evaluations_per_column(scene.problem()) * scene.media() + 4 * scene.groups();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const PlaneGroup& group = groups[g];
+      if (!group.objects && !group.background && !group.transmittance_itself) continue;
+      OverlayPush push{};
+      for (std::size_t k = 0; g == 0 && k < 3; ++k) {
+        push.luminance[k] = static_cast<float>(luminance[k]);
+      }
+      push.object = group.objects;
+      push.background = group.background;
+      push.transmittance = group.transmittance_itself;
+      std::vector<vulkan::Binding> bindings =
+          scene.bind({matrix_buffer, colours[0], colours[1], colours[2], store.plane(g, 0),
+                      store.plane(g, 1), store.plane(g, 2), store.plane(g, 3)});
+      fill_table(tracer, {overlay_, scene.constants(), bindings},
+                 static_cast<int>(store.pixels), evaluations, push);
+    }
   }
 }
 

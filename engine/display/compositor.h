@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/display/planes.h"
+#include "engine/image/picture.h"
 #include "engine/methods/method.h"
 #include "engine/sky/stars.h"
 
@@ -53,12 +54,20 @@ class Compositor {
   /// Records the planes of one tile.
   void compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
                const FrameStore& store);
+  /// Adds a client's picture as the air before it leaves it.
+  /// @param scenes  at all wavelengths of the transmittance, with the ends of the picture's
+  /// rays
+  /// @param rows    transmittance_rows at these
+  void overlay(Tracer& tracer, const std::vector<UploadedScene>& scenes,
+               const std::array<std::vector<double>, 3>& rows, const Picture& picture,
+               const std::vector<PlaneGroup>& groups, const std::array<double, 3>& luminance,
+               const FrameStore& store);
   /// Fills `store.rgbx` from the first group's planes.
   void display(Tracer& tracer, const Image& image, const Output& output, double exposure_ev,
                const FrameStore& store);
 
  private:
-  vulkan::Kernel compose_, stars_, display_;
+  vulkan::Kernel compose_, stars_, overlay_, display_;
 };
 
 }  // namespace cyanometer

@@ -111,4 +111,22 @@ std::vector<PlaneGroup> plane_groups(const Scene& scene, const Problem& problem,
   return groups;
 }
 
+std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& problem,
+                                         const Output& output) {
+  std::vector<PlaneGroup> groups = plane_groups(scene, problem, output);
+  for (PlaneGroup& group : groups) {
+    const std::string& channel = group.channels.front();
+    const bool image = channel == "R";
+    group.objects = image || channel == "ground.R";
+    group.background = image || channel == "sun.R";
+    group.transmittance_itself = channel == "transmittance.R";
+    if (group.transmittance_itself) group.transmittance = {};
+  }
+  return groups;
+}
+
+std::array<std::vector<double>, 3> transmittance_rows(const Output& output) {
+  return {normalised(output.rgb[0]), normalised(output.rgb[1]), normalised(output.rgb[2])};
+}
+
 }  // namespace cyanometer

@@ -16,6 +16,9 @@ struct PlaneGroup {
   std::array<std::vector<double>, 4> rows;  ///< by wavelength; empty is nothing
   std::array<float, 4> inscatter{}, ground{}, sun{}, transmittance{};  ///< weights by plane
   bool stars = false;
+  /// Of a composite: what of the client's picture is added, and whether the group holds the
+  /// transmittance along its rays.
+  bool objects = false, background = false, transmittance_itself = false;
 };
 
 /// The first group is always R, G, B and a plane without a name: the luminance that exposure is
@@ -23,5 +26,14 @@ struct PlaneGroup {
 /// file holds follows in the others where it is more or other than R, G, B.
 std::vector<PlaneGroup> plane_groups(const Scene& scene, const Problem& problem,
                                      const Output& output);
+
+/// The same for a composite: the client's objects are in the frame and in the layer `ground`,
+/// its background is in the frame and in the layer `sun`.
+std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& problem,
+                                         const Output& output);
+
+/// By channel R, G, B and wavelength: transmittance in a channel is that of the sun's own
+/// light.
+std::array<std::vector<double>, 3> transmittance_rows(const Output& output);
 
 }  // namespace cyanometer

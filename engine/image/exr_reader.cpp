@@ -95,11 +95,20 @@ Imf::Header read_header(std::string_view bytes) {
   return header;
 }
 
-void check_size(const Imf::Header& header, int width, int height) {
+Imf::Header checked_header(std::string_view bytes) {
+  check_kind(bytes);
+  check_attributes(bytes);
+  return read_header(bytes);
+}
+
+ExrSize size_of(const Imf::Header& header) {
   const Imath::Box2i& window = header.dataWindow();
   const auto extent = [](int from, int to) { return std::int64_t{to} - from + 1; };
-  const std::int64_t columns = extent(window.min.x, window.max.x),
-                     rows = extent(window.min.y, window.max.y);
+  return {extent(window.min.x, window.max.x), extent(window.min.y, window.max.y)};
+}
+
+void check_size(const Imf::Header& header, int width, int height) {
+  const auto [columns, rows] = size_of(header);
   if (columns == width && rows == height) return;
   throw ImageError("The EXR has " + std::to_string(columns) + " x " + std::to_string(rows) +
                    " pixels; the frame has " + std::to_string(width) + " x " +
@@ -171,11 +180,14 @@ void read_pixels(std::string_view bytes, const std::vector<std::string>& wanted,
   file.readPixels(window.min.y, window.max.y);
 }
 
-void check_values(const ExrImage& image, const std::vector<std::string>& wanted, int width) {
+void check_values(const ExrImage& image, const std::vector<std::string>& wanted, int width,
+                  std::string_view endless) {
   for (std::size_t c = 0; c < wanted.size(); ++c) {
     const std::vector<float>& plane = image.planes[c];
-    const auto bad =
-        std::ranges::find_if(plane, [](float value) { return !std::isfinite(value); });
+    const bool may_be_infinite = wanted[c] == endless;
+    const auto bad = std::ranges::find_if(plane, [&](float value) {
+      return std::isnan(value) || (!may_be_infinite && std::isinf(value));
+    });
     if (bad == plane.end()) continue;
     const auto at = bad - plane.begin();
     throw ImageError("The EXR's channel " + wanted[c] + " is " +
@@ -185,10 +197,8 @@ void check_values(const ExrImage& image, const std::vector<std::string>& wanted,
 }
 
 ExrImage read(std::string_view bytes, const std::vector<std::string>& wanted, int width,
-              int height) {
-  check_kind(bytes);
-  check_attributes(bytes);
-  const Imf::Header header = read_header(bytes);
+              int height, std::string_view endless) {
+  const Imf::Header header = checked_header(bytes);
   check_size(header, width, height);
   check_tiles(header);
   check_channels(header, wanted);
@@ -196,7 +206,7 @@ ExrImage read(std::string_view bytes, const std::vector<std::string>& wanted, in
   if (Imf::hasWhiteLuminance(header)) image.white_luminance = Imf::whiteLuminance(header);
   if (Imf::hasChromaticities(header)) image.rec709 = is_rec709(Imf::chromaticities(header));
   read_pixels(bytes, wanted, width, height, image);
-  check_values(image, wanted, width);
+  check_values(image, wanted, width, endless);
   return image;
 }
 
@@ -204,17 +214,31 @@ ExrImage read(std::string_view bytes, const std::vector<std::string>& wanted, in
 
 bool is_exr(std::string_view bytes) { return bytes.starts_with(magic); }
 
-ExrImage read_exr(std::string_view bytes, const std::vector<std::string>& channels, int width,
-                  int height) {
+namespace {
+
+/// What `read` gives; the library's errors, of many kinds, become ours.
+template <class Read>
+auto with_own_errors(Read read) {
   try {
-    return read(bytes, channels, width, height);
+    return read();
   } catch (const ImageError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& error) {  // the library's, of many kinds
+  } catch (const std::exception& error) {
     throw ImageError("The EXR cannot be read: " + std::string(error.what()));
   }
+}
+
+}  // namespace
+
+ExrImage read_exr(std::string_view bytes, const std::vector<std::string>& channels, int width,
+                  int height, std::string_view endless) {
+  return with_own_errors([&] { return read(bytes, channels, width, height, endless); });
+}
+
+ExrSize exr_size(std::string_view bytes) {
+  return with_own_errors([&] { return size_of(checked_header(bytes)); });
 }
 
 }  // namespace cyanometer

@@ -1,6 +1,7 @@
 // OpenEXR files from strangers: some channels of one flat image, of a size that is known.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,10 +27,17 @@ struct ExrImage {
 /// Reads the wanted channels, half or float. Nothing is allocated that the file's bytes and the
 /// wanted size do not bound.
 /// @param channels  their names in the file: "R", "Z"
+/// @param endless  the channel that may be infinite, if any
 /// @throws ImageError where the bytes are no OpenEXR file, are cut off or damaged; where the
 /// file is deep, has several parts or another size, lacks a channel, keeps it as integers or
 /// for some pixels only; where a value is not finite
 ExrImage read_exr(std::string_view bytes, const std::vector<std::string>& channels, int width,
-                  int height);
+                  int height, std::string_view endless = {});
+
+/// Columns and rows, from the header alone. @throws ImageError
+struct ExrSize {
+  std::int64_t width = 0, height = 0;
+};
+ExrSize exr_size(std::string_view bytes);
 
 }  // namespace cyanometer

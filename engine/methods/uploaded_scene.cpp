@@ -14,7 +14,8 @@ std::vector<Bytes> arrays(const Physics<float>& p) {
   auto bytes = [](const auto& vector) { return Bytes(std::as_bytes(std::span(vector))); };
   return {vulkan::bytes_of(p.scene), bytes(p.media),        bytes(p.spectra),
           bytes(p.profile_nodes),    bytes(p.phase_angles), bytes(p.phase_values),
-          bytes(p.sun_points),       bytes(p.directions),   bytes(p.quadrature)};
+          bytes(p.sun_points),       bytes(p.directions),   bytes(p.quadrature),
+          bytes(p.ends_km)};
 }
 
 /// One buffer for all arrays: where each begins, and its size. Empty ones keep room for one
@@ -49,9 +50,11 @@ std::string key_of_air(const Physics<float>& p) {
   return key;
 }
 
-Physics<float> packed(const Problem& problem, const std::vector<glm::dvec3>& directions) {
+Physics<float> packed(const Problem& problem, const std::vector<glm::dvec3>& directions,
+                      const RayEnds* ends) {
   Physics<float> physics = pack<float>(problem);
   if (!directions.empty()) set_directions(physics, directions);
+  if (ends) physics.scene.ends = ends->count();
   return physics;
 }
 
@@ -66,16 +69,37 @@ int iterations(const Physics<float>& physics) {
 
 }  // namespace
 
-UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
-                             const std::vector<glm::dvec3>& directions)
-    : UploadedScene(device, problem, packed(problem, directions)) {}
+RayEnds::RayEnds(vulkan::Device& device, std::span<const float> km)
+    : buffer_(device, km.size_bytes(), vulkan::Memory::host) {
+  buffer_.write(0, std::as_bytes(km));
+}
+
+namespace {
+
+bool ends(float km) { return km < Physics<float>::ENDLESS; }
+
+}  // namespace
+
+bool RayEnds::any(int first, int count) const {
+  return std::ranges::any_of(km().subspan(first, count), ends);
+}
+
+bool RayEnds::all(int first, int count) const {
+  return std::ranges::all_of(km().subspan(first, count), ends);
+}
 
 UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
-                             const Physics<float>& physics)
+                             const std::vector<glm::dvec3>& directions,
+                             std::shared_ptr<const RayEnds> ends)
+    : UploadedScene(device, problem, packed(problem, directions, ends.get()), ends) {}
+
+UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
+                             const Physics<float>& physics, std::shared_ptr<const RayEnds> ends)
     : problem_(problem),
       air_key_(key_of_air(physics)),
       parts_(lay_out(arrays(physics), device.limits().storage_alignment)),
       buffer_(device, parts_.back().first + parts_.back().second, vulkan::Memory::device),
+      ends_(std::move(ends)),
       constants_(specialization(physics)),
       groups_(physics.GROUPS),
       media_(physics.MEDIA),
@@ -93,6 +117,10 @@ std::vector<vulkan::Binding> UploadedScene::bind(
     std::initializer_list<vulkan::Binding> own) const {
   std::vector<vulkan::Binding> all;
   for (auto [offset, size] : parts_) all.emplace_back(buffer_, offset, size);
+  if (ends_) {
+    all.pop_back();
+    all.emplace_back(ends_->buffer());
+  }
   for (const vulkan::Binding& binding : own) all.push_back(binding);
   return all;
 }

@@ -1,6 +1,8 @@
 // A scene on the device, in the buffers that every method binds first.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,14 +18,32 @@ namespace cyanometer {
 /// keeps dozens in registers, and gain nothing from it.
 inline constexpr std::size_t wavelengths_at_once = 16;
 
+/// Where each ray of a frame ends, km from the camera.
+class RayEnds {
+ public:
+  /// A ray that ends at 1e30 or beyond goes on as far as it can.
+  RayEnds(vulkan::Device& device, std::span<const float> km);
+
+  /// Whether any, and whether all of these rays end somewhere.
+  bool any(int first, int count) const;
+  bool all(int first, int count) const;
+  int count() const { return static_cast<int>(km().size()); }
+  std::span<const float> km() const { return buffer_.as<const float>(); }
+  const vulkan::Buffer& buffer() const { return buffer_; }
+
+ private:
+  vulkan::Buffer buffer_;
+};
+
 class UploadedScene {
  public:
-  static constexpr int bindings = 9;  ///< 0 to 8 of shaders/device.glsl
+  static constexpr int bindings = 10;  ///< 0 to 9 of shaders/device.glsl
 
   /// The rays are `directions` (unit; x east, y north, z up at the foot point), or the camera's
-  /// where there are none.
+  /// where there are none. `ends` is theirs, none where all go on as far as they can.
   UploadedScene(vulkan::Device& device, const Problem& problem,
-                const std::vector<glm::dvec3>& directions = {});
+                const std::vector<glm::dvec3>& directions = {},
+                std::shared_ptr<const RayEnds> ends = nullptr);
 
   const Problem& problem() const { return problem_; }
   /// All that the air and the ground are, as bytes: with equal keys, tables that depend on
@@ -37,17 +57,22 @@ class UploadedScene {
   int density_iterations() const { return density_iterations_; }
   int profile_nodes() const { return profile_nodes_; }  ///< of all tabulated profiles
   int kinks() const { return kinks_; }                  ///< where a ray is cut
+  /// Whether any, and whether all of these rays end before they have to.
+  bool any_ends(int first, int count) const { return ends_ && ends_->any(first, count); }
+  bool all_end(int first, int count) const { return ends_ && ends_->all(first, count); }
 
   /// The scene's bindings followed by a kernel's own.
   std::vector<vulkan::Binding> bind(std::initializer_list<vulkan::Binding> own) const;
 
  private:
-  UploadedScene(vulkan::Device& device, const Problem& problem, const Physics<float>& physics);
+  UploadedScene(vulkan::Device& device, const Problem& problem, const Physics<float>& physics,
+                std::shared_ptr<const RayEnds> ends);
 
   Problem problem_;
   std::string air_key_;
   std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
   vulkan::Buffer buffer_;
+  std::shared_ptr<const RayEnds> ends_;
   vulkan::Specialization constants_;
   int groups_, media_, disc_points_, density_iterations_, profile_nodes_, kinks_;
 };

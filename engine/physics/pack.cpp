@@ -244,6 +244,7 @@ Physics<Real> pack(const Problem& problem) {
   append_media(p, problem);
   append_quadrature(p, problem);
   set_camera(p, problem);
+  p.scene.ends = static_cast<int>(p.ends_km.size());
   set_sun(p, problem);
   return p;
 }

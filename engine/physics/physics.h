@@ -76,6 +76,7 @@ struct Physics {
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
   std::vector<Vec2> quadrature;
+  std::vector<Real> ends_km{Real(1e30)};
 
   // Of the method `path` alone (engine/methods/path/guide.h).
   int SEGMENTS = 8;
@@ -86,6 +87,7 @@ struct Physics {
   int OPTICAL_DEPTH_COSINES = 2, OPTICAL_DEPTH_ALTITUDES = 2;
   std::vector<Vec4> optical_depths;
   int MULTIPLE_SUNS = 2, MULTIPLE_ALTITUDES = 2, SKY_VIEW_AZIMUTHS = 2, SKY_VIEW_ELEVATIONS = 4;
+  int SKY_VIEW_STOPS = 1;
   std::vector<Vec4> log_multiple, log_irradiance, sky_view;
   std::vector<Real> view_columns;
 
@@ -112,6 +114,7 @@ struct Physics {
 #include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
 #include "shaders/tables/optical_depth.glsl"
+#include "shaders/tables/stops.glsl"
 #include "shaders/methods/nishita.glsl"
 #include "shaders/methods/moments.glsl"
 #include "shaders/methods/raymarch.glsl"
@@ -123,7 +126,6 @@ struct Physics {
 #include "shaders/methods/hillaire/view.glsl"
 #include "shaders/methods/hillaire/sky_view.glsl"
 #include "shaders/methods/bruneton/grid.glsl"
-#include "shaders/methods/bruneton/segment.glsl"
   // clang-format on
 };
 

@@ -23,7 +23,8 @@ struct PlanInputs {
   double rays = 0;  ///< of the whole request
   const std::vector<std::unique_ptr<Method>>& methods;
   const DeviceProfile& profile;
-  TraceProbe probe;  ///< the same few rays each time
+  TraceProbe probe;    ///< the same few rays each time
+  bool parts = false;  ///< whether rays end at something in the air
 };
 
 /// Every error is measured on the probe's rays: against the best solution that is quick, at the

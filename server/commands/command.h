@@ -50,6 +50,7 @@ void add_render(CLI::App& app);
 void add_radiance(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_composite(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_health(CLI::App& app);

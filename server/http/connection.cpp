@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <span>
+#include <utility>
 
 #include "server/http/problem.h"
 
@@ -48,6 +49,19 @@ int poll_until(std::span<pollfd> sockets, std::chrono::steady_clock::time_point 
 }
 
 }  // namespace
+
+bool BodyShare::grow_to(std::size_t body_bytes) {
+  constexpr std::size_t free_bytes = std::size_t{1} << 20;
+  const std::size_t wanted = std::max(body_bytes, free_bytes) - free_bytes;
+  if (wanted <= bytes_) return true;
+  const std::size_t more = wanted - bytes_;
+  if (budget_->bytes.fetch_add(more) + more > budget_->most_bytes) {
+    budget_->bytes -= more;
+    return false;
+  }
+  bytes_ = wanted;
+  return true;
+}
 
 Connection::Connection(int socket, int wake, const ConnectionLimits& limits)
     : socket_(socket), wake_(wake), limits_(limits), peer_(peer_address(socket)) {}
@@ -100,14 +114,20 @@ std::optional<Received> Connection::read() {
   if (!bytes) return std::nullopt;
   const Head head = parse_head(*bytes);
   const Framing framing = frame_body(head, limits_.body_bytes);
-  Received received{make_request(head), framing.close};
+  Received received{make_request(head), framing.close,
+                    std::make_shared<BodyShare>(limits_.bodies)};
   if (framing.expect_continue && buffer_.empty()) write("HTTP/1.1 100 Continue\r\n\r\n");
   const auto deadline = Clock::now() + limits_.body;
   while (buffer_.size() < framing.body_bytes) {
     if (!fill(deadline)) return std::nullopt;
+    if (received.body_share->grow_to(buffer_.size())) continue;
+    HttpProblem problem(503, "The bodies of other requests take all the memory there is.");
+    problem.retry_after_s = 1;
+    throw problem;
   }
-  received.request.body = buffer_.substr(0, framing.body_bytes);
-  buffer_.erase(0, framing.body_bytes);
+  std::string rest = buffer_.substr(framing.body_bytes);
+  buffer_.resize(framing.body_bytes);
+  received.request.body = std::exchange(buffer_, std::move(rest));
   received.request.peer = peer_;
   received.request.gone = [this] { return gone(); };
   return received;

@@ -2,7 +2,9 @@
 // deadline.
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,11 +12,33 @@
 
 namespace cyanometer {
 
+/// What the long bodies of all requests that are being read or answered may take together.
+struct BodyBudget {
+  std::size_t most_bytes = std::size_t{1} << 30;
+  std::atomic<std::size_t> bytes{0};
+};
+
+/// A body's share of the budget: what has come of it beyond a MiB, so that neither short bodies
+/// nor long ones that are only announced take anything.
+class BodyShare {
+ public:
+  explicit BodyShare(std::shared_ptr<BodyBudget> budget) : budget_(std::move(budget)) {}
+  ~BodyShare() { budget_->bytes -= bytes_; }
+  BodyShare(const BodyShare&) = delete;
+  /// False where there is no room for so much.
+  bool grow_to(std::size_t body_bytes);
+
+ private:
+  std::shared_ptr<BodyBudget> budget_;
+  std::size_t bytes_ = 0;
+};
+
 struct ConnectionLimits {
   using Duration = std::chrono::milliseconds;
   std::size_t request_line_bytes = 8192;
   std::size_t head_bytes = 32768;
   std::size_t body_bytes = std::size_t{4} << 20;
+  std::shared_ptr<BodyBudget> bodies = std::make_shared<BodyBudget>();
   int requests = 10000;                       ///< on one connection
   Duration idle = std::chrono::seconds(75);   ///< between requests
   Duration head = std::chrono::seconds(10);   ///< from a head's first byte to its last
@@ -26,6 +50,7 @@ struct ConnectionLimits {
 struct Received {
   Request request;
   bool close = false;
+  std::shared_ptr<BodyShare> body_share = {};
 };
 
 /// Does not own the socket.

@@ -32,9 +32,13 @@ Frames::Flown Frames::render(const Order& order, const Watch& watch) {
                                     .work = [&](Engine& engine, const Watch& w) {
                                       frame = engine.render(order.scene, order.plan, w);
                                     }});
+  return encoded(frame, order.scene, ticket);
+}
+
+Frames::Flown Frames::encoded(const Frame& frame, const Scene& scene, const Ticket& ticket) {
   EncodedFrame encoded;
   const auto start = Clock::now();
-  encoded.bytes = encode(frame, order.scene);
+  encoded.bytes = encode(frame, scene);
   encoded.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   encoded.exposure_ev = frame.exposure_ev;
   encoded.queue_ms = ticket.queued_ms + ticket.given_away_ms;

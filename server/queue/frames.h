@@ -43,6 +43,13 @@ class Frames {
   /// @throws as RenderQueue::run
   Got get(const Order& order, const Watch& watch);
 
+  struct Flown {
+    std::shared_ptr<const EncodedFrame> frame;
+    std::shared_ptr<void> memory;  ///< as Got's
+  };
+  /// A frame that was rendered by the job of that ticket.
+  Flown encoded(const Frame& frame, const Scene& scene, const Ticket& ticket);
+
   struct Counts {
     std::uint64_t rendered = 0, joined = 0, kept = 0;
     std::size_t kept_bytes = 0;
@@ -50,10 +57,6 @@ class Frames {
   Counts counts() const;
 
  private:
-  struct Flown {
-    std::shared_ptr<const EncodedFrame> frame;
-    std::shared_ptr<void> memory;
-  };
   struct Entry {
     std::string tag;
     std::shared_ptr<const EncodedFrame> frame;

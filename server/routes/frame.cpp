@@ -2,9 +2,11 @@
 
 #include <array>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
 #include "engine/image/encode.h"
 #include "server/routes/json_answer.h"
+#include "server/routes/openapi.h"
 
 namespace cyanometer {
 namespace {
@@ -22,14 +24,6 @@ std::string options_text(const std::map<std::string, double>& options) {
     out += (out.empty() ? "" : ";") + name + "=" + shortest(value);
   }
   return out;
-}
-
-void check_cost(const Plan& plan, const Config& config) {
-  const double seconds = plan.expected_ms / 1000;
-  if (seconds <= config.max_device_s) return;
-  throw OverLimit("/method", "the frame is expected to take " + fixed(seconds) +
-                                 " s of the device, more than the " +
-                                 shortest(config.max_device_s) + " s of this server");
 }
 
 /// RFC 9211.
@@ -60,6 +54,14 @@ std::string server_timing(const PlannedFrame& planned, const Frames::Got& got,
 std::string shortest(double value) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+void check_cost(const Plan& plan, const Config& config) {
+  const double seconds = plan.expected_ms / 1000;
+  if (seconds <= config.max_device_s) return;
+  throw OverLimit("/method", "the frame is expected to take " + fixed(seconds) +
+                                 " s of the device, more than the " +
+                                 shortest(config.max_device_s) + " s of this server");
 }
 
 std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service& service) {
@@ -105,6 +107,27 @@ Fields frame_fields(const PlannedFrame& planned, const Frames::Got& got, Service
   return {{"Cyanometer-Exposure", shortest(got.frame->exposure_ev)},
           {"Server-Timing", server_timing(planned, got, service)},
           {"Cache-Status", cache_status(got.origin)}};
+}
+
+nlohmann::json frame_operation() {
+  nlohmann::json content;
+  for (const auto& each : encodings()) {
+    content[std::string(each.media_type)] = {{"schema", nlohmann::json::object()}};
+  }
+  nlohmann::json responses =
+      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
+  openapi::add_header(
+      responses, "Cache-Status",
+      "RFC 9211: kept (hit), or rendered, where `collapsed` for another's request.");
+  openapi::add_header(responses, "ETag", "Over scene, plan, version and device.");
+  openapi::add_header(responses, "Server-Timing", "queue, prepare, render, encode; dur in ms.");
+  openapi::add_header(responses, "Cyanometer-Method", "The method that was used.");
+  openapi::add_header(responses, "Cyanometer-Options", "Its options: name=value;...");
+  openapi::add_header(responses, "Cyanometer-Error", "A bound that holds in 95 % of frames.");
+  openapi::add_header(responses, "Cyanometer-Met", "false where the request could not be met.");
+  openapi::add_header(responses, "Cyanometer-Exposure", "The exposure used, in stops.");
+  openapi::add_header(responses, "Cyanometer-Atmosphere", "Equal keys share tables.");
+  return {{"responses", responses}};
 }
 
 }  // namespace cyanometer

@@ -1,6 +1,7 @@
 // One frame for a request: its plan within the limits, its tag, itself, and what is said of it.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "server/http/message.h"
@@ -23,6 +24,9 @@ struct PlannedFrame {
 PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Service& service,
                         const Watch& watch);
 
+/// @throws OverLimit where a frame is expected to take too long
+void check_cost(const Plan& plan, const Config& config);
+
 /// The tag of a scene's frame by a plan.
 std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service& service);
 
@@ -35,6 +39,9 @@ Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Se
 Fields planned_fields(const PlannedFrame& planned);
 /// What is said of it then: exposure, timing, where it came from. Counts the stages.
 Fields frame_fields(const PlannedFrame& planned, const Frames::Got& got, Service& service);
+
+/// The OpenAPI operation of a route that answers an image: its responses.
+nlohmann::json frame_operation();
 
 /// A number as short as it reads back.
 std::string shortest(double value);

@@ -1,7 +1,6 @@
 // POST and GET /v1/render: scene in, image out.
 #include <nlohmann/json.hpp>
 
-#include "engine/image/encode.h"
 #include "server/routes/frame.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
@@ -54,33 +53,12 @@ SceneRequest frame_request(const json& document, const Request& request,
   return asked;
 }
 
-json operation() {
-  json content;
-  for (const auto& each : encodings()) {
-    content[std::string(each.media_type)] = {{"schema", json::object()}};
-  }
-  json responses =
-      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
-  openapi::add_header(
-      responses, "Cache-Status",
-      "RFC 9211: kept (hit), or rendered, where `collapsed` for another's request.");
-  openapi::add_header(responses, "ETag", "Over scene, plan, version and device.");
-  openapi::add_header(responses, "Server-Timing", "queue, prepare, render, encode; dur in ms.");
-  openapi::add_header(responses, "Cyanometer-Method", "The method that was used.");
-  openapi::add_header(responses, "Cyanometer-Options", "Its options: name=value;...");
-  openapi::add_header(responses, "Cyanometer-Error", "A bound that holds in 95 % of frames.");
-  openapi::add_header(responses, "Cyanometer-Met", "false where the request could not be met.");
-  openapi::add_header(responses, "Cyanometer-Exposure", "The exposure used, in stops.");
-  openapi::add_header(responses, "Cyanometer-Atmosphere", "Equal keys share tables.");
-  return {{"responses", responses}};
-}
-
 }  // namespace
 
 Route render_post() {
   return {"POST", "/v1/render", "Render a scene",
           [] {
-            json out = operation();
+            json out = frame_operation();
             out["requestBody"] = openapi::json_body(openapi::scene_schema_reference());
             return out;
           },
@@ -95,7 +73,7 @@ Route render_post() {
 Route render_link() {
   return {"GET", "/v1/render", "Render the scene that a link describes",
           [] {
-            json out = operation();
+            json out = frame_operation();
             out["parameters"] = openapi::link_parameters();
             out["responses"]["304"] = {{"description", "The frame is the one the client has."}};
             return out;

@@ -35,6 +35,7 @@ Route radiance_post();
 Route plan_post();
 Route plan_link();
 Route compare_post();
+Route composite_post();
 Route explain_post();
 Route methods_list();
 Route presets_list();

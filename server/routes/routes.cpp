@@ -4,12 +4,13 @@ namespace cyanometer {
 
 const std::vector<Route>& routes() {
   static const std::vector<Route> table{
-      render_post(),     render_link(),      stream_post(),
-      stream_link(),     radiance_post(),    plan_post(),
-      plan_link(),       compare_post(),     explain_post(),
-      methods_list(),    presets_list(),     limits_list(),
-      schema_document(), openapi_document(), healthz(),
-      readyz(),          metrics_text(),     page(),
+      render_post(),    render_link(),     stream_post(),
+      stream_link(),    radiance_post(),   plan_post(),
+      plan_link(),      compare_post(),    explain_post(),
+      composite_post(), methods_list(),    presets_list(),
+      limits_list(),    schema_document(), openapi_document(),
+      healthz(),        readyz(),          metrics_text(),
+      page(),
   };
   return table;
 }

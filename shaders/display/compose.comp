@@ -30,12 +30,14 @@ void main() {
   load_scene();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_from_camera(pixel.direction);
-  bool sky = pixel.inside && !path.meets_ground;
+  // What a client's picture shows at the end of a ray hides all behind it.
+  bool hidden = end_of_ray(push.first_ray + i) < ENDLESS;
+  bool sky = pixel.inside && !path.meets_ground && !hidden;
   Vec3 camera = Vec3(0.0, 0.0, scene.planet_radius_km + scene.camera_altitude_km);
   Vec4 value = Vec4(0.0);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 inscatter = tile[(INSCATTER * GROUPS + g) * n + i];
-    Vec4 ground = tile[(GROUND * GROUPS + g) * n + i];
+    Vec4 ground = hidden ? Vec4(0.0) : tile[(GROUND * GROUPS + g) * n + i];
     Vec4 transmittance = tile[(TRANSMITTANCE * GROUPS + g) * n + i];
     Vec4 sun = sky ? transmittance * disc_radiance(pixel.direction, camera, limb_exponent(g),
                                                    pixel_angle())

@@ -31,6 +31,7 @@ void main() {
   load_scene();
   PixelRay pixel = pixel_ray(at);
   if (!pixel.inside || path_from_camera(pixel.direction).meets_ground) return;
+  if (end_of_ray(at) < ENDLESS) return;
   int i = at - push.first_ray;
   Vec4 value = Vec4(0.0);
   UNROLL for (int g = 0; g < GROUPS; ++g) {

@@ -25,8 +25,10 @@ layout(push_constant) uniform Push {
   int first;           // of the sun's dispatches
   int last;            // of all
   int orders;          // 1, or more
+  int cut_only;        // 1: rays that end at something alone
 } push;
 
+const int SKY_VALUES = 2 * GROUPS;
 #include "methods/moments_pixel.glsl"
 
 void main() {
@@ -37,11 +39,8 @@ void main() {
   load_media();
   UNROLL for (int c = 0; c < MEDIA; ++c) view_share[c] = share_of_extinction(c);
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside) {
-    path.length_km = 0.0;
-    path.meets_ground = false;
-  }
+  Path path = path_of_ray(push.first_ray + i, pixel);
+  if (push.cut_only != 0 && !path.cut) return;
   bool fresh = push.sun == 0 && push.first != 0;
   Vec4 inscatter[GROUPS];
   Vec4 ground[GROUPS];
@@ -56,7 +55,7 @@ void main() {
 
   Real column[MEDIA_SIZE];
   if (push.last != 0) {
-    if (push.orders > 1) add_higher_orders(path, inscatter, ground);
+    if (push.orders > 1 && !path.cut) add_higher_orders(path, inscatter, ground);
     columns_along(path.altitude_km, path.mu, path.length_km, column);
     UNROLL for (int g = 0; g < GROUPS; ++g) {
       tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance_of(column, g);

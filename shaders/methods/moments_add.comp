@@ -15,6 +15,7 @@ layout(push_constant) uniform Push {
   int rays_in_tile;
 } push;
 
+const int SKY_VALUES = 2 * GROUPS;
 #include "methods/moments_pixel.glsl"
 
 void main() {
@@ -24,8 +25,8 @@ void main() {
   load_scene();
   load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside || !meets_planet(path)) return;
+  Path path = path_of_ray(push.first_ray + i, pixel);
+  if (path.cut || !meets_planet(path)) return;
   Vec4 inscatter[GROUPS];
   Vec4 ground[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) {

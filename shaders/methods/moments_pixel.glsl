@@ -1,5 +1,6 @@
 // What pixels add to order one: light that was scattered more than once, from the sky's table, and the ground
-// under it. Declare the buffer `sky` and a push constant with its sizes before this.
+// under it. Declare the buffer `sky`, a push constant with its sizes, and SKY_VALUES, how many values
+// it has a direction, before this.
 
 CONSTANT int AUREOLE_NODES = 129;
 
@@ -15,30 +16,30 @@ struct SkyPlace {
   Real elevation, azimuth;
 };
 
-SkyPlace sky_place(Path path, Vec3 axis) {
+SkyPlace sky_place(Vec3 direction, bool down, Vec3 axis) {
   SkyPlace place;
-  Real elevation = elevation_share(path.direction, path.meets_ground) * Real(push.elevations - 1);
-  Real azimuth = azimuth_from(axis_forward(axis), path.direction) / PI * Real(push.azimuths - 1);
+  Real elevation = elevation_share(direction, down) * Real(push.elevations - 1);
+  Real azimuth = azimuth_from(axis_forward(axis), direction) / PI * Real(push.azimuths - 1);
   int e = min(int(elevation), push.elevations - 2);
   int a = clamp(int(azimuth), 0, push.azimuths - 2);
   place.elevation = elevation - Real(e);
   place.azimuth = azimuth - Real(a);
-  place.at = ((e + (path.meets_ground ? push.elevations : 0)) * push.azimuths + a) * 2 * GROUPS;
+  place.at = ((e + (down ? push.elevations : 0)) * push.azimuths + a) * SKY_VALUES;
   return place;
 }
 
 Vec4 sky_value(SkyPlace place, int offset) {
   int at = place.at + offset;
-  int up = push.azimuths * 2 * GROUPS;
-  return mix(mix(sky[at], sky[at + 2 * GROUPS], place.azimuth),
-             mix(sky[at + up], sky[at + up + 2 * GROUPS], place.azimuth), place.elevation);
+  int up = push.azimuths * SKY_VALUES;
+  return mix(mix(sky[at], sky[at + SKY_VALUES], place.azimuth),
+             mix(sky[at + up], sky[at + up + SKY_VALUES], place.azimuth), place.elevation);
 }
 
 void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
                        INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
   Vec3 axis = sun_axis();
   if (path.length_km > 0.0) {
-    SkyPlace place = sky_place(path, axis);
+    SkyPlace place = sky_place(path.direction, path.meets_ground, axis);
     ScatteringAngle angle =
         scattering_angle(sun_ray(path.start, Vec3(0.0)).direction, path.direction);
     UNROLL for (int g = 0; g < GROUPS; ++g) {

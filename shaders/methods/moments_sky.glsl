@@ -14,6 +14,7 @@ layout(push_constant) uniform Push {
   int elevations, azimuths;   // of the sky; the ground has as many
   int steps;
   int first, end;
+  int stop;                   // of parts of rays (moments_parts.comp)
 } push;
 
 // For each elevation and node its (altitude, zenith cosine, distance, points); then for each point the terms

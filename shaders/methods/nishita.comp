@@ -22,11 +22,7 @@ void main() {
   load_scene();
   load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside) {
-    path.length_km = 0.0;
-    path.meets_ground = false;
-  }
+  Path path = path_of_ray(push.first_ray + i, pixel);
 
   Real view_column[MEDIA_SIZE];
   Real light_column[MEDIA_SIZE];

@@ -43,9 +43,9 @@ void main() {
   int slice = lane % push.slices;
   int ray = push.first_ray + lane / push.slices;
   PixelRay pixel = pixel_ray(ray);
-  Path path = path_from_camera(pixel.direction);
+  Path path = path_of_ray(ray, pixel);
   int walks_of_lane =
-      pixel.inside && meets_planet(path)
+      meets_planet(path)
           ? (push.walks_of_ray - slice + push.slices - 1) / push.slices
           : 0;
 
@@ -79,7 +79,8 @@ void main() {
     if (walk.vertices == 0) walk = start_walk(path, stream, throughput);
     Vec4 radiance[GROUPS];
     UNROLL for (int g = 0; g < GROUPS; ++g) radiance[g] = Vec4(0.0);
-    bool goes_on = step_walk(walk, stream, push.orders, throughput, radiance, ground_first);
+    bool goes_on = step_walk(walk, stream, push.orders, end_of_flight(path, walk), throughput,
+                             radiance, ground_first);
     UNROLL for (int g = 0; g < GROUPS; ++g) {
       if (ground_first) {
         ground[g] += radiance[g];

@@ -26,9 +26,9 @@ void scattered_share(Scatterer scatterer, Vec3 direction, ARRAY(Real, density, M
 }
 
 // Goes on to the next vertex; throughput is then that of the light which gets to it. False where
-// the walk has left the shell.
-bool fly(INOUT(Walk) walk, Vec4 u, INOUT_ARRAY(Vec4, throughput, GROUPS_SIZE), INOUT(Flight) flight) {
-  Leg leg = leg_from(walk.altitude_km, walk.direction.z);
+// the walk has left the shell, or nothing lies before the end of its ray.
+bool fly(INOUT(Walk) walk, Real end_km, Vec4 u, INOUT_ARRAY(Vec4, throughput, GROUPS_SIZE), INOUT(Flight) flight) {
+  Leg leg = leg_from(walk.altitude_km, walk.direction.z, end_km);
   flight = choose_flight(walk, leg, throughput, u);
   if (flight.ends || !(flight.density > 0.0)) return false;
   Real column[MEDIA_SIZE];
@@ -54,15 +54,20 @@ Real strongest(ARRAY(Vec4, throughput, GROUPS_SIZE)) {
   return result;
 }
 
-// One vertex more: flies there, adds what it scatters of the sun's light to `radiance` (from the second
+// How far a walk may go: its first ray as far as the frame's.
+Real end_of_flight(Path path, Walk walk) {
+  return path.cut && walk.vertices == 0 ? path.length_km : ENDLESS;
+}
+
+// One vertex more: flies there, at most as far as `end_km`, adds what it scatters of the sun's light to `radiance` (from the second
 // vertex on), and turns. False where the walk is over.
-bool step_walk(INOUT(Walk) walk, Stream stream, int orders,
+bool step_walk(INOUT(Walk) walk, Stream stream, int orders, Real end_km,
                INOUT_ARRAY(Vec4, throughput, GROUPS_SIZE), INOUT_ARRAY(Vec4, radiance, GROUPS_SIZE),
                INOUT(bool) ground_first) {
   Vec4 u = uniform_numbers(stream, 2 * walk.vertices);
   Vec4 v = uniform_numbers(stream, 2 * walk.vertices + 1);
   Flight flight;
-  if (!fly(walk, u, throughput, flight)) return false;
+  if (!fly(walk, end_km, u, throughput, flight)) return false;
   if (walk.vertices == 1) ground_first = flight.ground;
 
   Scatterer scatterer;

@@ -24,11 +24,7 @@ void main() {
   load_scene();
   load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside) {
-    path.length_km = 0.0;
-    path.meets_ground = false;
-  }
+  Path path = path_of_ray(push.first_ray + i, pixel);
   bool fresh = push.sun == 0 && push.first != 0;
   Vec4 inscatter[GROUPS];
   Vec4 ground[GROUPS];

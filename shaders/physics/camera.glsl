@@ -73,3 +73,22 @@ Real pixel_angle() {
   if (PROJECTION == PROJECTION_EQUIRECTANGULAR) return PI / Real(scene.height);
   return 0.5 * PI / Real(scene.width);
 }
+
+// A ray that nothing stands in the way of ends here or farther, km.
+CONSTANT Real ENDLESS = Real(1e30);
+
+// Where a ray of the frame ends, km from the camera.
+Real end_of_ray(int ray) { return ends_km[min(ray, scene.ends - 1)]; }
+
+// The part of a ray of the frame that lies in the air before its end; none outside a fisheye's circle. What
+// stands at the end hides the ground.
+Path path_of_ray(int ray, PixelRay pixel) {
+  Path path = path_from_camera(pixel.direction);
+  Vec3 camera = Vec3(0.0, 0.0, scene.planet_radius_km + scene.camera_altitude_km);
+  Real end_km = end_of_ray(ray);
+  path.cut = end_km < ENDLESS;
+  path.length_km = min(path.length_km, max(end_km - length(path.start - camera), 0.0));
+  if (!pixel.inside) path.length_km = 0.0;
+  if (path.cut || !pixel.inside) path.meets_ground = false;
+  return path;
+}

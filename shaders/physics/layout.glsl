@@ -25,7 +25,7 @@ struct SceneData {
   int kinks;            // altitudes at which profiles bend, behind the rules (quadrature.glsl)
 
   Real view_scale_km;   // height over which what scatters thins out (raymarch.glsl)
-  Real reserved_x;
+  int ends;             // of rays: 1 for all, or one a ray (camera.glsl)
   Real reserved_y;
   Real reserved_z;
 };

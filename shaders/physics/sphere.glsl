@@ -47,6 +47,7 @@ struct Path {
   Real mu;             // zenith cosine there
   Real length_km;      // 0 where the ray meets neither air nor ground
   bool meets_ground;
+  bool cut;            // something stands at its end, in the air or beyond it
 };
 
 // From a camera at the altitude h above the origin of the local frame.
@@ -61,6 +62,7 @@ Path path_from_camera(Vec3 direction) {
   path.mu = direction.z;
   path.length_km = 0.0;
   path.meets_ground = false;
+  path.cut = false;
   if (h > scene.thickness_km) {
     // The distance of closest approach, from the horizontal part of the direction: that keeps its
     // relative precision where a planet seen from afar fills a small angle.

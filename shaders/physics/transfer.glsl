@@ -7,6 +7,17 @@ Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
   return exp(-depth);
 }
 
+// Mean of exp(-x) for x from 0 to an optical depth.
+Real mean_transmittance(Real depth) {
+  return depth > 0.03 ? (1.0 - exp(-depth)) / depth
+                      : 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0));
+}
+
+Vec4 mean_transmittances(Vec4 depth) {
+  return Vec4(mean_transmittance(depth.x), mean_transmittance(depth.y),
+              mean_transmittance(depth.z), mean_transmittance(depth.w));
+}
+
 // Radiance of the Lambertian ground under an irradiance of 1 on a horizontal plane, 1/sr.
 Vec4 lambertian(int group) { return ground_albedo(group) / PI; }
 

@@ -11,6 +11,7 @@
 #include "server/config.h"
 #include "tests/api/client.h"
 #include "tests/api/program.h"
+#include "tests/composite/picture_file.h"
 
 namespace cyanometer::testing {
 namespace {
@@ -20,9 +21,9 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
-  for (const auto* name :
-       {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
-        "bench", "chart", "audit", "profile", "load", "compare", "explain", "tables"}) {
+  for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
+                           "contact-sheet", "schema", "bench", "chart", "audit", "profile",
+                           "load", "compare", "composite", "explain", "tables"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -85,6 +86,25 @@ TEST(Command, CompareTakesScenesAndPictures) {
   Program larger({"compare", folder / "a.exr", "-"}, "{}");
   EXPECT_EQ(larger.wait(), 2);
   EXPECT_THAT(larger.err(), ::testing::HasSubstr("16 x 8"));
+}
+
+TEST(Command, CompositeTakesItsSizeFromThePicture) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "card.exr") << even_picture(16, 8, 0.5f, 2);
+  const std::string scene =
+      R"({"method":{"name":"raymarch"},"spectrum":{"wavelengths_nm":[680,550,440]}})";
+  Program run({"composite", folder / "card.exr", "-", "--scale", "2", "-o", folder / "out.png"},
+              scene);
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_TRUE(read_file(folder / "out.png").starts_with("\x89PNG"));
+  Program larger({"composite", folder / "card.exr", "-", "-o", "-"},
+                 R"({"image":{"width":17}})");
+  EXPECT_EQ(larger.wait(), 2);
+  EXPECT_THAT(larger.err(), ::testing::HasSubstr("/image/width"));
+  std::ofstream(folder / "bad.exr") << "no picture";
+  Program bad({"composite", folder / "bad.exr", "-", "-o", "-"}, scene);
+  EXPECT_EQ(bad.wait(), 2);
+  EXPECT_THAT(bad.err(), ::testing::HasSubstr("bad.exr: This is no OpenEXR file."));
 }
 
 TEST(Command, ExplainPrintsATableOrTheDocument) {

@@ -53,6 +53,31 @@ TEST(Framing, ABodyOverTheLimitIsRefusedBeforeItIsSent) {
   EXPECT_EQ(status_of(exchange(post("Content-Length: 99999999999999999999999\r\n"))), 413);
 }
 
+TEST(Framing, LongBodiesShareTheirMemoryAndAnnouncedOnesTakeNone) {
+  Config config = free_port();
+  config.max_body_mb = 4;
+  config.frame_memory_mb = 1;  // as much for bodies, and at least one
+  Daemon daemon(config);
+  daemon.start();
+  const auto head = [](std::size_t bytes) {
+    return post("Connection: close\r\nContent-Length: " + std::to_string(bytes) + "\r\n");
+  };
+  constexpr std::size_t mib = std::size_t{1} << 20;
+  RawClient announced(daemon.port()), half_sent(daemon.port()), other(daemon.port());
+  announced.send(head(4 * mib));
+  half_sent.send(head(4 * mib) + std::string(4 * mib - 1, 'x'));
+  std::this_thread::sleep_for(300ms);
+  other.send(head(3 * mib) + std::string(3 * mib, 'x'));
+  EXPECT_EQ(status_of(other.receive()), 503);
+  half_sent.close();
+  std::this_thread::sleep_for(300ms);
+  RawClient again(daemon.port());
+  again.send(head(3 * mib) + std::string(3 * mib, 'x'));
+  EXPECT_EQ(status_of(again.receive()), 400);
+  announced.close();
+  daemon.stop();
+}
+
 TEST(Framing, AClientThatAsksFirstIsToldToContinue) {
   RawClient raw;
   raw.send(post("Expect: 100-continue\r\nContent-Length: 2\r\n" + closing));

@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 #include <httplib.h>
 
+#include <cmath>
 #include <map>
 #include <thread>
 
 #include "engine/scene/document.h"
 #include "server/daemon.h"
+#include "tests/composite/picture_file.h"
 #include "tests/fuzz/hostile.h"
 #include "tests/scene/random_document.h"
 
@@ -44,7 +46,8 @@ class ApiFuzzer {
     const Operation& operation = hostile.one_of(operations_);
     Case made{operation.method, operation.path, "", {}};
     if (operation.description.contains("parameters") &&
-        (operation.method == "GET" || hostile.chance(0.2))) {
+        (operation.method == "GET" || operation.path == "/v1/composite" ||
+         hostile.chance(0.2))) {
       made.target += "?" + query(hostile, number, operation.path == "/v1/stream");
     }
     if (operation.method == "POST") made.body = body(operation, hostile, number);
@@ -99,10 +102,28 @@ class ApiFuzzer {
 
   std::string body(const Operation& operation, Hostile& hostile, unsigned number) {
     const json& content = operation.description.at("requestBody").at("content");
+    if (!content.contains("application/json")) return picture(hostile);
     json document = instance(content.at("application/json").at("schema"), hostile, number);
     if (hostile.chance(0.85)) hostile.mutate(document);
     std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
     return hostile.chance(0.2) ? hostile.broken(text) : text;
+  }
+
+  /// An EXR with distances, now and then of odd values or channels, or broken.
+  static std::string picture(Hostile& hostile) {
+    constexpr int width = 8, height = 4;
+    Channels channels;
+    for (const char* name : {"R", "G", "B", "Z"}) {
+      std::vector<float>& plane = channels[name];
+      plane.assign(width * height, static_cast<float>(hostile.below(100)) / 10);
+      if (hostile.chance(0.1)) {
+        plane[hostile.below(plane.size())] =
+            hostile.one_of<float>({-1, NAN, INFINITY, 1e30f, -INFINITY, 3e38f, 1e-40f});
+      }
+    }
+    if (hostile.chance(0.05)) channels.erase(channels.begin());
+    const std::string file = picture_file(width, height, channels);
+    return hostile.chance(0.2) ? hostile.broken(file) : file;
   }
 
   static void flatten(const json& value, const std::string& path, httplib::Params& to) {

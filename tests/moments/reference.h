@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -47,12 +48,15 @@ class MomentReference {
   }
 
   /// What is scattered or reflected more than once, towards a camera of the same air.
-  Value further_radiance(const Problem& view, const glm::dvec3& direction) {
+  /// @param end_km  where the ray ends if not before, on the ground or at the top
+  Value further_radiance(const Problem& view, const glm::dvec3& direction,
+                         double end_km = std::numeric_limits<double>::infinity()) {
     p_.scene = pack<double>(view).scene;
     P::Path path = p_.path_from_camera(direction);
     if (!p_.meets_planet(path)) return Value(0);
-    Ray ray =
-        traced(path.altitude_km, path.mu, path.length_km, path.meets_ground, size_.view_steps);
+    bool cut = end_km < path.length_km;
+    Ray ray = traced(path.altitude_km, path.mu, std::min(path.length_km, end_km),
+                     path.meets_ground && !cut, size_.view_steps);
     glm::dvec3 axis = p_.sun_axis();
     double mu_s = glm::dot(path.start, axis) / glm::length(path.start);
     return next_order(ray, mu_s, glm::dot(axis, direction), sum_);

@@ -5,7 +5,9 @@
 #include "engine/methods/bruneton/table_panels.h"
 #include "engine/methods/bruneton/tables.h"
 #include "engine/methods/raymarch/raymarch.h"
+#include "engine/methods/tables/fill.h"
 #include "spirv/bruneton.spv.h"
+#include "spirv/bruneton_parts.spv.h"
 #include "spirv/bruneton_single_view.spv.h"
 
 namespace cyanometer {
@@ -19,12 +21,16 @@ constexpr int view_evaluations = 20;
 struct Push {
   std::int32_t first_ray, rays_in_tile;
 };
+struct PartsPush {
+  std::int32_t first, end, first_ray, rays_in_tile, cells;
+};
 
 class Bruneton final : public Method {
  public:
   explicit Bruneton(vulkan::Device& device)
       : first_order_(make_raymarch(device)),
         tables_(device),
+        parts_(device, bruneton_parts_spirv, UploadedScene::bindings + 4, sizeof(PartsPush)),
         view_(device, bruneton_spirv, UploadedScene::bindings + 5, sizeof(Push)),
         single_view_(device, bruneton_single_view_spirv, UploadedScene::bindings + 5,
                      sizeof(Push)) {}
@@ -46,12 +52,14 @@ class Bruneton final : public Method {
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     Setup setup(options);
-    if (setup.first == Setup::First::quadrature) {
-      first_order_->trace(tracer, scene, options, tile);
-    } else {
-      trace_single(tracer, scene, setup, tile);
-    }
-    if (bruneton::has_multiple(scene.problem())) add_multiple(tracer, scene, setup, tile);
+    bool cut = scene.any_ends(tile.first_ray, tile.rays);
+    bool whole = !scene.all_end(tile.first_ray, tile.rays);
+    bool quadrature = setup.first == Setup::First::quadrature;
+    if (cut || quadrature) first_order_->trace(tracer, scene, options, tile);
+    if (whole && !quadrature) trace_single(tracer, scene, setup, tile);
+    if (!bruneton::has_multiple(scene.problem())) return;
+    if (whole) add_multiple(tracer, scene, setup, tile);
+    if (cut) add_multiple_to_parts(tracer, scene, setup, tile);
   }
 
   std::vector<Panels> tables(Tracer& tracer, const UploadedScene& scene,
@@ -77,6 +85,18 @@ class Bruneton final : public Method {
         view_evaluations * scene.groups(), tile);
   }
 
+  void add_multiple_to_parts(Tracer& tracer, const UploadedScene& scene, const Setup& setup,
+                             const Tile& tile) {
+    auto sources = tables_.source(tracer, scene, setup);
+    auto view = tables_.view(tracer, scene, setup);
+    std::int64_t a_cell = 4 * (scene.media() + 1) + view_evaluations * scene.groups();
+    fill_table(tracer,
+               {parts_, bruneton::view_constants(scene, setup, view->rays.rays),
+                scene.bind({view->rays.grids, view->rays.nodes, sources->source, tile.values})},
+               tile.rays, setup.cells * a_cell,
+               PartsPush{0, 0, tile.first_ray, tile.rays, setup.cells});
+  }
+
   static void run(Tracer& tracer, const UploadedScene& scene,
                   const vulkan::Specialization& constants, const vulkan::Kernel& kernel,
                   std::initializer_list<vulkan::Binding> own, std::int64_t evaluations,
@@ -90,7 +110,7 @@ class Bruneton final : public Method {
 
   std::unique_ptr<Method> first_order_;
   bruneton::TableMaker tables_;
-  vulkan::Kernel view_, single_view_;
+  vulkan::Kernel parts_, view_, single_view_;
 };
 
 MethodOption nodes(std::string name, std::string title, std::string description, int least,

@@ -12,6 +12,7 @@ using namespace hillaire;
 struct MarchPush {
   std::int32_t first, end, first_ray, rays_in_tile, all_orders, samples, sun;
   float scale_height_km;
+  std::int32_t cut_only;
 };
 
 class Hillaire final : public Method {
@@ -49,18 +50,29 @@ class Hillaire final : public Method {
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     Sizes sizes = Sizes::of(options, scene.problem().scattering_orders);
-    bool table = options.at("march_pixels") == 0 && sky_.serves(scene, sizes);
-    TablesOfView tables = tables_.get(tracer, scene, sizes, table);
-    if (table) {
-      sky_.trace(tracer, scene, sizes, tables, tile);
+    if (options.at("march_pixels") != 0 || !sky_.serves(scene, sizes)) {
+      march(tracer, scene, sizes, false, tile);
+      return;
+    }
+    if (!scene.all_end(tile.first_ray, tile.rays)) sky_trace(tracer, scene, sizes, tile);
+    if (!scene.any_ends(tile.first_ray, tile.rays)) return;
+    if (sky_.serves(scene, sizes.of_parts())) {
+      sky_trace(tracer, scene, sizes.of_parts(), tile);
     } else {
-      march(tracer, scene, sizes, tables, tile);
+      march(tracer, scene, sizes, true, tile);
     }
   }
 
  private:
-  void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
-             const TablesOfView& tables, const Tile& tile) {
+  void sky_trace(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
+                 const Tile& tile) {
+    sky_.trace(tracer, scene, sizes, tables_.get(tracer, scene, sizes, true), tile);
+  }
+
+  /// @param cut_only  leaves alone the rays that go on as far as they can
+  void march(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes, bool cut_only,
+             const Tile& tile) {
+    TablesOfView tables = tables_.get(tracer, scene, sizes, false);
     vulkan::Specialization specialization = constants(scene, sizes);
     auto bindings = bind(scene, *tables.air, {tables.columns->values, tile.values});
     MarchPush push{0,
@@ -70,7 +82,8 @@ class Hillaire final : public Method {
                    sizes.several_orders(),
                    sizes.view_samples,
                    0,
-                   scale_height_km(scene.problem())};
+                   scale_height_km(scene.problem()),
+                   cut_only};
     for (push.sun = 0; push.sun < scene.disc_points(); ++push.sun) {
       fill_table(tracer, {march_, specialization, bindings}, tile.rays,
                  2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);

@@ -29,8 +29,10 @@ void SkyTracer::trace(Tracer& tracer, const UploadedScene& scene, const Sizes& s
   auto bindings =
       bind(scene, *tables.air, {tables.columns->values, tables.sky->values, tile.values});
   Push push{0, 0, tile.first_ray, tile.rays, sizes.several_orders()};
+  std::int64_t columns =
+      sizes.stops > 1 ? evaluations_per_column(scene.problem()) * scene.media() : 0;
   fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,
-             6 * evaluations_per_node(scene), push);
+             6 * evaluations_per_node(scene) + columns, push);
 }
 
 }  // namespace cyanometer::hillaire

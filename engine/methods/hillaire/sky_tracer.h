@@ -13,7 +13,8 @@ class SkyTracer {
   /// Whether the table can stand for this scene: it is of one parallel beam, from inside the
   /// air.
   bool serves(const UploadedScene& scene, const Sizes& sizes) const;
-  /// Leaves all quantities of the tile complete.
+  /// Leaves all quantities complete of the tile's rays that go on as far as they can; by tables
+  /// of parts (Sizes::of_parts) of those that end in the air.
   void trace(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
              const TablesOfView& tables, const Tile& tile);
 

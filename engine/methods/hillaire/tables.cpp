@@ -95,7 +95,17 @@ Sizes Sizes::of(const MethodOptions& options, int orders) {
           option("view_samples"),
           options.at("forward_share"),
           orders,
+          1,
           {}};
+}
+
+Sizes Sizes::of_parts() const {
+  constexpr int most_azimuths = 48, most_elevations = 96, many_stops = 32;
+  Sizes parts = *this;
+  parts.azimuths = std::min(azimuths, most_azimuths);
+  parts.elevations = std::min(elevations, most_elevations);
+  parts.stops = many_stops;
+  return parts;
 }
 
 AirTables::AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups)
@@ -118,7 +128,7 @@ std::size_t SkyView::bytes_of(const UploadedScene& scene, const Sizes& sizes) {
   };
   const std::vector<Medium>& media = scene.problem().media;
   std::size_t planes = 1 + std::count_if(media.begin(), media.end(), scatters);
-  return vec4_bytes * sizes.azimuths * sizes.elevations * planes * scene.groups();
+  return vec4_bytes * sizes.azimuths * sizes.elevations * sizes.stops * planes * scene.groups();
 }
 
 TableMaker::TableMaker(vulkan::Device& device)
@@ -148,7 +158,7 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
       [&] { return make_columns(tracer, scene, sizes, tables); });
   if (!with_sky) return tables;
   std::string sky = "hillaire sky " + altitude + bytes_of_float(problem.sun_direction[2]);
-  for (int size : {sizes.azimuths, sizes.elevations, sizes.view_samples}) {
+  for (int size : {sizes.azimuths, sizes.elevations, sizes.view_samples, sizes.stops}) {
     sky += " " + std::to_string(size);
   }
   tables.sky = tracer.tables.get<SkyView>(
@@ -218,7 +228,8 @@ std::shared_ptr<const SkyView> TableMaker::make_sky(Tracer& tracer, const Upload
   auto bindings = bind(scene, *tables.air, {tables.columns->values, sky->values});
   SkyPush push{0, 0, sizes.view_samples, sizes.several_orders(),
                scale_height_km(scene.problem())};
-  fill_table(tracer, {sky_, specialization, bindings}, sizes.azimuths * sizes.elevations,
+  fill_table(tracer, {sky_, specialization, bindings},
+             sizes.azimuths * sizes.elevations * sizes.stops,
              2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);
   return sky;
 }
@@ -233,8 +244,8 @@ std::vector<vulkan::Binding> bind(const UploadedScene& scene, const AirTables& a
 
 vulkan::Specialization constants(const UploadedScene& scene, const Sizes& sizes) {
   vulkan::Specialization all = OpticalDepthTable::constants(scene, sizes.optical_depth);
-  for (int size :
-       {sizes.multiple_suns, sizes.multiple_altitudes, sizes.azimuths, sizes.elevations}) {
+  for (int size : {sizes.multiple_suns, sizes.multiple_altitudes, sizes.azimuths,
+                   sizes.elevations, sizes.stops}) {
     all.push_back(static_cast<std::uint32_t>(size));
   }
   all.resize(phase_tables_constant);

@@ -13,7 +13,8 @@ struct Sizes {
   int multiple_suns, multiple_altitudes, directions, multiple_samples;
   int azimuths, elevations, view_samples;
   double forward_share;
-  int orders;  ///< that are computed; -1 all
+  int orders;     ///< that are computed; -1 all
+  int stops = 1;  ///< of parts of the sky view's rays; 1: whole rays
   /// Of order one alone: the share of each constituent's extinction (in the device's order)
   /// that does not dim light on its way to the camera; none where that is empty.
   std::vector<double> straight_on = {};
@@ -21,6 +22,9 @@ struct Sizes {
   /// Whether light may be scattered or reflected more than once.
   bool several_orders() const { return orders < 0 || orders > 1; }
   static Sizes of(const MethodOptions& options, int orders);
+  /// Of a sky view for rays that end in the air: ratios of parts vary as little, and there are
+  /// many stops.
+  Sizes of_parts() const;
 };
 
 /// Of the air alone, all without the forward peak.

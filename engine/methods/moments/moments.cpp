@@ -9,6 +9,8 @@
 #include "engine/methods/scratch.h"
 #include "spirv/moments.spv.h"
 #include "spirv/moments_add.spv.h"
+#include "spirv/moments_add_parts.spv.h"
+#include "spirv/moments_parts.spv.h"
 #include "spirv/moments_sky.spv.h"
 #include "spirv/moments_sky_rays.spv.h"
 
@@ -18,7 +20,7 @@ namespace {
 /// shaders/methods/moments_sky.comp
 struct SkyPush {
   MomentTables::Grid grid;
-  std::int32_t fine_altitudes, fine_suns, elevations, azimuths, steps, first, end;
+  std::int32_t fine_altitudes, fine_suns, elevations, azimuths, steps, first, end, stop;
 };
 /// Its SKY_POINTS.
 constexpr int sky_points = 8;
@@ -26,7 +28,7 @@ constexpr int sky_points = 8;
 struct PixelPush {
   MomentTables::Grid grid;
   std::int32_t irradiance, fine_suns, elevations, azimuths, first_ray, rays_in_tile, view_nodes,
-      sun, pieces, first, last, orders;
+      sun, pieces, first, last, orders, cut_only;
 };
 
 /// shaders/methods/moments_add.comp
@@ -38,10 +40,11 @@ struct AddPush {
 /// What is scattered more than once, from one camera under one sun.
 class Sky final : public Tables {
  public:
-  Sky(vulkan::Device& device, int elevations_, int azimuths_, int groups)
+  /// @param parts  stops of each ray; 1 for whole rays
+  Sky(vulkan::Device& device, int elevations_, int azimuths_, int groups, int parts = 1)
       : elevations(elevations_),
         azimuths(azimuths_),
-        values(device, std::size_t{64} * elevations * azimuths * groups,
+        values(device, std::size_t{64} * elevations * azimuths * groups * parts,
                vulkan::Memory::device) {}
   std::size_t bytes() const override { return values.size(); }
 
@@ -50,6 +53,8 @@ class Sky final : public Tables {
 };
 
 constexpr int finer = 4;
+/// Ratios of parts bend less; shaders/methods/moments_parts.glsl.
+constexpr int finer_parts = 2, part_stops = 16;
 
 int option(const MethodOptions& options, const char* name) {
   return static_cast<int>(options.at(name));
@@ -102,8 +107,11 @@ class Moments final : public Method {
       : solver_(device),
         sky_rays_(device, moments_sky_rays_spirv, UploadedScene::bindings + 4, sizeof(SkyPush)),
         sky_(device, moments_sky_spirv, UploadedScene::bindings + 4, sizeof(SkyPush)),
+        parts_(device, moments_parts_spirv, UploadedScene::bindings + 5, sizeof(SkyPush)),
         pixel_(device, moments_spirv, UploadedScene::bindings + 5, sizeof(PixelPush)),
         add_(device, moments_add_spirv, UploadedScene::bindings + 4, sizeof(AddPush)),
+        add_parts_(device, moments_add_parts_spirv, UploadedScene::bindings + 4,
+                   sizeof(AddPush)),
         first_order_tables_(device),
         first_order_(device) {}
 
@@ -152,14 +160,27 @@ class Moments final : public Method {
       return more ? make_sky(tracer, scene, options, settings, *tables)
                   : std::make_shared<const Sky>(tracer.device, 2, 2, 1);
     });
+    bool cut = scene.any_ends(tile.first_ray, tile.rays);
+    bool whole = !scene.all_end(tile.first_ray, tile.rays);
     hillaire::Sizes first = first_order_sizes(options, *tables);
     if (may_read_first_order(scene.problem(), options) && first_order_.serves(scene, first)) {
-      auto read = first_order_tables_.get(tracer, scene, first, true);
-      first_order_.trace(tracer, scene, first, read, tile);
-      if (more) add_higher_orders(tracer, scene, settings, *tables, *sky, tile);
+      if (whole) {
+        read_first_order(tracer, scene, first, tile);
+        if (more) add_higher_orders(add_, tracer, scene, settings, *tables, *sky, tile);
+      }
+      if (cut && first_order_.serves(scene, first.of_parts())) {
+        read_first_order(tracer, scene, first.of_parts(), tile);
+      } else if (cut) {
+        trace_pixels(tracer, scene, options, settings, *tables, *sky, tile, false, true);
+      }
     } else {
-      trace_pixels(tracer, scene, options, settings, *tables, *sky, tile, more);
+      trace_pixels(tracer, scene, options, settings, *tables, *sky, tile, more, false);
     }
+    if (!cut || !more) return;
+    auto parts = tracer.tables.get<Sky>("parts of " + sky_key(scene, options, key), [&] {
+      return make_parts(tracer, scene, options, settings, *tables);
+    });
+    add_higher_orders(add_parts_, tracer, scene, settings, *tables, *parts, tile);
   }
 
  private:
@@ -181,9 +202,16 @@ class Moments final : public Method {
     return sizes;
   }
 
-  void add_higher_orders(Tracer& tracer, const UploadedScene& scene,
-                         const MomentSettings& settings, const MomentTables& tables,
-                         const Sky& sky, const Tile& tile) {
+  void read_first_order(Tracer& tracer, const UploadedScene& scene,
+                        const hillaire::Sizes& sizes, const Tile& tile) {
+    first_order_.trace(tracer, scene, sizes,
+                       first_order_tables_.get(tracer, scene, sizes, true), tile);
+  }
+
+  /// To whole rays, or to parts of rays from a table of these.
+  void add_higher_orders(const vulkan::Kernel& kernel, Tracer& tracer,
+                         const UploadedScene& scene, const MomentSettings& settings,
+                         const MomentTables& tables, const Sky& sky, const Tile& tile) {
     std::vector<vulkan::Binding> bindings =
         scene.bind({tables.series, tables.moments, sky.values, tile.values});
     vulkan::Specialization constants = scene.constants();
@@ -191,7 +219,7 @@ class Moments final : public Method {
     constants.push_back(tables.particles);
     AddPush push{tables.grid,  tables.irradiance, tables.fine_suns, sky.elevations,
                  sky.azimuths, tile.first_ray,    tile.rays};
-    tracer.commands.dispatch(add_, constants, bindings, vulkan::bytes_of(push),
+    tracer.commands.dispatch(kernel, constants, bindings, vulkan::bytes_of(push),
                              {vulkan::groups_for(tile.rays, 64)});
     constexpr std::int64_t a_pixel = 20;
     tracer.pacer.took(a_pixel * std::max(scene.media(), 1) * tile.rays, tracer.submit());
@@ -241,6 +269,7 @@ class Moments final : public Method {
                  azimuths,
                  option(options, "sky_steps"),
                  0,
+                 0,
                  0};
     vulkan::Buffer rays(tracer.device, sky_ray_bytes(push, settings.degree, groups),
                         vulkan::Memory::device);
@@ -274,9 +303,51 @@ class Moments final : public Method {
     return sky;
   }
 
+  std::shared_ptr<const Sky> make_parts(Tracer& tracer, const UploadedScene& scene,
+                                        const MethodOptions& options,
+                                        const MomentSettings& settings,
+                                        const MomentTables& tables) {
+    constexpr int most_elevations = 64, most_azimuths = 32;
+    int elevations = std::min(option(options, "sky_elevations"), most_elevations),
+        azimuths = std::min(option(options, "sky_azimuths"), most_azimuths),
+        groups = scene.groups();
+    int fine_elevations = finer_parts * (elevations - 1) + 1,
+        fine_azimuths = finer_parts * (azimuths - 1) + 1;
+    Sky light(tracer.device, elevations, azimuths, groups);
+    Sky coarse(tracer.device, elevations, azimuths, groups, part_stops);
+    Sky between(tracer.device, fine_elevations, azimuths, groups, part_stops);
+    auto parts = std::make_shared<Sky>(tracer.device, fine_elevations, fine_azimuths, groups,
+                                       part_stops);
+    SkyPush push{
+        tables.grid, tables.fine_altitudes, tables.fine_suns, elevations, azimuths, 0, 0, 0, 0};
+    vulkan::Specialization constants =
+        moment_constants(scene, settings.degree, tables.particles);
+    std::vector<vulkan::Binding> bindings =
+        scene.bind({tables.series, tables.moments, tables.series, light.values, coarse.values});
+    PacedWork work(tracer);
+    int degree = settings.degree;
+    int a_node = 10 * std::max(scene.media(), 1) + 2 * (degree + 1) * (degree + 2);
+    for (push.stop = 0; push.stop < part_stops; ++push.stop) {
+      work.run(2 * elevations * azimuths * groups, 4 * a_node, [&](int first, int end) {
+        push.first = first;
+        push.end = end;
+        tracer.commands.dispatch(parts_, constants, bindings, vulkan::bytes_of(push),
+                                 {vulkan::groups_for(end - first, 64)});
+      });
+    }
+    int values = 2 * groups * part_stops;
+    solver_.refine(work, tracer, scene, coarse.values, between.values, 2,
+                   {0, 0, elevations, fine_elevations, azimuths * values, 0});
+    solver_.refine(work, tracer, scene, between.values, parts->values, 2 * fine_elevations,
+                   {0, 0, azimuths, fine_azimuths, values, 1});
+    work.submit();
+    return parts;
+  }
+
+  /// @param cut_only  leaves alone the rays that go on as far as they can
   void trace_pixels(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
                     const MomentSettings& settings, const MomentTables& tables, const Sky& sky,
-                    const Tile& tile, bool more) {
+                    const Tile& tile, bool more, bool cut_only) {
     int view_nodes = option(options, "view_nodes");
     require_rounds(scene, rounds_of_a_piece(scene, view_nodes));
     int all_pieces = most_pieces(scene);
@@ -295,7 +366,7 @@ class Moments final : public Method {
                        sky.elevations, sky.azimuths,      tile.first_ray,
                        tile.rays,      view_nodes,        sun,
                        pieces,         done == 0,         last,
-                       more ? 2 : 1};
+                       more ? 2 : 1,   cut_only};
         tracer.commands.dispatch(pixel_, constants, bindings, vulkan::bytes_of(push),
                                  {vulkan::groups_for(tile.rays, 64)});
         tracer.pacer.took(cost(scene, options, tile.rays), tracer.submit());
@@ -312,7 +383,7 @@ class Moments final : public Method {
   }
 
   MomentSolver solver_;
-  vulkan::Kernel sky_rays_, sky_, pixel_, add_;
+  vulkan::Kernel sky_rays_, sky_, parts_, pixel_, add_, add_parts_;
   hillaire::TableMaker first_order_tables_;
   hillaire::SkyTracer first_order_;
   Scratch progress_;

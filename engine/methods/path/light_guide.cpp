@@ -105,7 +105,7 @@ class Lighting {
 
   std::vector<Node> nodes_along(double h, double mu) {
     static const GaussRule rule = gauss_legendre(12);
-    P::Leg leg = p_.leg_from(h, mu);
+    P::Leg leg = p_.leg_from(h, mu, P::ENDLESS);
     std::vector<Node> nodes;
     double column[P::MEDIA_SIZE], density[P::MEDIA_SIZE];
     for (bool back : {true, false}) {

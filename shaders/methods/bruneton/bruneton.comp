@@ -22,8 +22,8 @@ void main() {
   if (i >= n) return;
   load_scene();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside || !meets_planet(path)) return;
+  Path path = path_of_ray(push.first_ray + i, pixel);
+  if (path.cut || !meets_planet(path)) return;
   ViewPosition at = view_position(path);
   Vec3 end = path.start + path.direction * path.length_km;
   Real mu_s = dot(end, towards_sun()) / scene.planet_radius_km;

@@ -13,34 +13,6 @@ layout(push_constant) uniform Push {
   int cells;
 } push;
 
-// Adds the optical depths of extinction and scattering across a cell.
-// @returns the mean place of what scatters in it, km from the ray's start
-Real cross_cell(Real h, Real mu, Cell cell, INOUT_ARRAY(Vec4, extinguished, GROUPS_SIZE),
-                INOUT_ARRAY(Vec4, scattered, GROUPS_SIZE)) {
-  Real width_km = cell.to_km - cell.from_km;
-  Real moment = 0.0;
-  Real total = 0.0;
-  UNROLL for (int i = 0; i < 4; ++i) {
-    Real t = cell.from_km + width_km * gauss4_node(i);
-    Real density[MEDIA_SIZE];
-    densities(altitude_after(h, mu, t), density);
-    Real here = 0.0;
-    UNROLL for (int c = 0; c < MEDIA; ++c) {
-      Real column = width_km * gauss4_weight(i) * density[c];
-      UNROLL for (int g = 0; g < GROUPS; ++g) {
-        Vec4 part = scattering(c, g) * column;
-        extinguished[g] = extinguished[g] + extinction(c, g) * column;
-        scattered[g] = scattered[g] + part;
-        here += part.x + part.y + part.z + part.w;
-      }
-    }
-    moment += here * t;
-    total += here;
-  }
-  if (total <= 0.0) return 0.5 * (cell.from_km + cell.to_km);
-  return clamp(moment / total, cell.from_km, cell.to_km);
-}
-
 void keep_point(int entry, Real h, Real mu, Real t) {
   Real r = scene.planet_radius_km + h;
   Real altitude = clamp(altitude_after(h, mu, t), 0.0, scene.thickness_km);
@@ -69,10 +41,6 @@ void main() {
     Cell cell = cell_of_path(h, mu, length_km, push.cells, i);
     Vec4 extinguished[GROUPS];
     Vec4 scattered[GROUPS];
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      extinguished[g] = Vec4(0.0);
-      scattered[g] = Vec4(0.0);
-    }
     int entry = cell_entry(ray, push.cells, i);
     keep_point(entry, h, mu, cross_cell(h, mu, cell, extinguished, scattered));
     UNROLL for (int g = 0; g < GROUPS; ++g) {

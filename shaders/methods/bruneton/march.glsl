@@ -40,3 +40,35 @@ Vec4 escaping_share(Vec4 x) {
   Vec4 thick = step(Vec4(0.05), x);
   return series * (1.0 - thick) + closed * thick;
 }
+
+// The optical depths of extinction and scattering across a cell.
+// @returns the mean place of what scatters in it, km from the ray's start
+Real cross_cell(Real h, Real mu, Cell cell, OUT_ARRAY(Vec4, extinguished, GROUPS_SIZE),
+                OUT_ARRAY(Vec4, scattered, GROUPS_SIZE)) {
+  Real width_km = cell.to_km - cell.from_km;
+  Real moment = 0.0;
+  Real total = 0.0;
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    extinguished[g] = Vec4(0.0);
+    scattered[g] = Vec4(0.0);
+  }
+  UNROLL for (int i = 0; i < 4; ++i) {
+    Real t = cell.from_km + width_km * gauss4_node(i);
+    Real density[MEDIA_SIZE];
+    densities(altitude_after(h, mu, t), density);
+    Real here = 0.0;
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      Real column = width_km * gauss4_weight(i) * density[c];
+      UNROLL for (int g = 0; g < GROUPS; ++g) {
+        Vec4 part = scattering(c, g) * column;
+        extinguished[g] = extinguished[g] + extinction(c, g) * column;
+        scattered[g] = scattered[g] + part;
+        here += part.x + part.y + part.z + part.w;
+      }
+    }
+    moment += here * t;
+    total += here;
+  }
+  if (total <= 0.0) return 0.5 * (cell.from_km + cell.to_km);
+  return clamp(moment / total, cell.from_km, cell.to_km);
+}

@@ -4,6 +4,7 @@ layout(constant_id = 12) const int MULTIPLE_SUNS = 2;
 layout(constant_id = 13) const int MULTIPLE_ALTITUDES = 2;
 layout(constant_id = 14) const int SKY_VIEW_AZIMUTHS = 2;
 layout(constant_id = 15) const int SKY_VIEW_ELEVATIONS = 4;
+layout(constant_id = 16) const int SKY_VIEW_STOPS = 1;  // of parts of rays; 1: whole rays
 
 // The share of each constituent's scattering that changes a direction, by group of wavelengths: the rest is
 // a forward peak that goes straight on. Tables are made without it (with optical depths to match), and
@@ -23,5 +24,6 @@ void take_out_forward_peak() {
 
 #define OPTICAL_DEPTH_BINDING OWN
 #include "tables/optical_depth_buffer.glsl"
+#include "tables/stops.glsl"
 #include "methods/hillaire/coordinates.glsl"
 #include "methods/hillaire/march.glsl"

@@ -20,6 +20,7 @@ layout(push_constant) uniform Push {
   int samples;
   int sun;  // point of the disc
   float scale_height_km;
+  int cut_only;  // 1: rays that end at something alone
 } push;
 
 void main() {
@@ -30,8 +31,8 @@ void main() {
   load_media();
   take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside) leave_out(path);
+  Path path = path_of_ray(push.first_ray + i, pixel);
+  if (push.cut_only != 0 && !path.cut) return;
   Vec3 offset = MANY_SUNS ? sun_offset(push.sun) : Vec3(0.0);
   Vec3 to_sun = sun_ray(path.start, offset).direction;
   SunlitRay ray = view_ray(path, to_sun);
@@ -44,7 +45,7 @@ void main() {
   march_view(ray, path, push.sun, push.samples, push.scale_height_km, push.all_orders != 0, column,
              once, further);
   make_ratios(column, once, further);
-  view_columns_of(ray, column);
+  if (!path.cut) view_columns_of(ray, column);
   scattering_towards(scattering_angle(to_sun, path.direction), scattering_phase);
   light_ground(path, offset, push.all_orders != 0, ground);
   UNROLL for (int g = 0; g < GROUPS; ++g) {

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Pixels from the sky view: interpolated ratios, exact columns, phase functions.
+// Pixels from the sky view: interpolated ratios, exact columns, phase functions. From one of parts of rays
+// those pixels alone whose rays end at something.
 #include "device.glsl"
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
@@ -28,18 +29,27 @@ void main() {
   load_media();
   take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
-  Path path = path_from_camera(pixel.direction);
-  if (!pixel.inside) leave_out(path);
+  Path path = path_of_ray(push.first_ray + i, pixel);
   Vec3 to_sun = sun_ray(path.start, Vec3(0.0)).direction;
   SunlitRay ray = view_ray(path, to_sun);
-  SkyPosition position = sky_position(ray, azimuth_cosine_between(path.direction, to_sun));
+  Real azimuth_cosine = azimuth_cosine_between(path.direction, to_sun);
+  SkyPosition position;
 
   Real column[MEDIA_SIZE];
   Vec4 once[MEDIA_GROUPS_SIZE];
   Vec4 further[GROUPS];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   Vec4 ground[GROUPS];
-  view_columns_of(ray, column);
+  if (SKY_VIEW_STOPS > 1) {
+    if (!path.cut) return;
+    SunlitRay whole = sunlit_ray(ray.altitude_km, ray.mu, meets_ground(ray.altitude_km, ray.mu),
+                                 ray.mu_sun, ray.nu);
+    position = part_position(whole, azimuth_cosine, ray.length_km);
+    columns_along(ray.altitude_km, ray.mu, ray.length_km, column);
+  } else {
+    position = sky_position(ray, azimuth_cosine);
+    view_columns_of(ray, column);
+  }
   scattering_towards(scattering_angle(to_sun, path.direction), scattering_phase);
   light_ground(path, Vec3(0.0), push.all_orders != 0, ground);
   int planes = sky_planes();

@@ -25,8 +25,12 @@ void main() {
   load_scene();
   load_media();
   take_out_forward_peak();
-  SunlitRay ray = sky_ray(texel % SKY_VIEW_AZIMUTHS, texel / SKY_VIEW_AZIMUTHS, scene.camera_altitude_km,
-                          scene.sun_direction.z);
+  int row = texel / SKY_VIEW_AZIMUTHS;
+  SunlitRay ray = sky_ray(texel % SKY_VIEW_AZIMUTHS, row % SKY_VIEW_ELEVATIONS,
+                          scene.camera_altitude_km, scene.sun_direction.z);
+  if (SKY_VIEW_STOPS > 1) {
+    ray.length_km = stop_km(stops_on(ray), row / SKY_VIEW_ELEVATIONS, SKY_VIEW_STOPS);
+  }
   Path idle;
   Real column[MEDIA_SIZE];
   Vec4 once[MEDIA_GROUPS_SIZE];

@@ -48,6 +48,20 @@ Shadow shadow_over(SunlitRay ray) {
   return shadow_on(path, light, 0.0);
 }
 
+// The built-in functions are made from exponentials and lose all digits of small arguments, which short rays
+// have.
+Vec4 precise_asinh(Vec4 x) {
+  Vec4 square = x * x;
+  Vec4 series = x * (1.0 - square * (1.0 / 6.0 - square * (3.0 / 40.0 - square * (15.0 / 336.0))));
+  return mix(asinh(x), series, step(abs(x), Vec4(0.2)));
+}
+
+Vec4 precise_sinh(Vec4 x) {
+  Vec4 square = x * x;
+  Vec4 series = x * (1.0 + square * (1.0 / 6.0 + square * (1.0 / 120.0 + square / 5040.0)));
+  return mix(sinh(x), series, step(abs(x), Vec4(0.5)));
+}
+
 // Nodes along a ray: Gauss-Legendre in u, four a panel, distance = bend sinh(u) from the lowest point. So
 // nodes are even within a scale height or a mean free path of it, and farther apart in proportion to the
 // distance beyond: thin layers, thick hazes and long rays have theirs alike. The ray is cut at the edges of
@@ -81,7 +95,7 @@ Panels panels_along(SunlitRay ray, Shadow shadow, int samples, Real scale_height
   if (bend_km * opacity > 4.0) bend_km = 4.0 / opacity;
   panels.bend_km = bend_km;
   Vec4 distances = Vec4(0.0, shadow.enter_km, shadow.leave_km, ray.length_km) - panels.low_km;
-  panels.edges = asinh(distances / bend_km);
+  panels.edges = precise_asinh(distances / bend_km);
   Vec3 parts = Vec3(panels.edges.y - panels.edges.x, panels.edges.z - panels.edges.y,
                     panels.edges.w - panels.edges.z);
   // What is lit has all of the samples, however short it is: there light changes fastest.
@@ -117,7 +131,7 @@ Panel panel_of(Panels panels, int i) {
   }
   Vec4 nodes = Vec4(gauss4_node(0), gauss4_node(1), gauss4_node(2), gauss4_node(3));
   Vec4 u = edge + size * nodes;
-  panel.distance_km = max(panels.low_km + panels.bend_km * sinh(u), Vec4(0.0));
+  panel.distance_km = max(panels.low_km + panels.bend_km * precise_sinh(u), Vec4(0.0));
   panel.stretch_km = (panels.bend_km * size) * cosh(u);
   panel.lit = into_shadow < 0 || behind >= 0;
   return panel;

@@ -1,7 +1,8 @@
 // The table of ratios over the directions of a camera in the air under parallel light: across, the cosine of
 // the azimuth from the sun, from 1 to -1. All that a ray meets is a smooth function of that cosine, so the
 // table has no seam towards the sun or away from it. Up, SKY_VIEW_ELEVATIONS / 2 rows from the horizon to the
-// zenith, and the others from the horizon to the nadir; nothing is interpolated across the horizon.
+// zenith, and the others from the horizon to the nadir; nothing is interpolated across the horizon. Of parts
+// of rays there is such a table for each stop.
 
 int sky_rows() { return SKY_VIEW_ELEVATIONS / 2; }
 int ground_rows() { return SKY_VIEW_ELEVATIONS - sky_rows(); }
@@ -16,15 +17,30 @@ int sky_planes() {
 struct SkyPosition {
   NodePosition azimuth;
   NodePosition elevation;  // its node counts rows of the whole table
+  NodePosition stop;       // idle for whole rays
 };
 
+// Of a whole ray.
 SkyPosition sky_position(SunlitRay ray, Real azimuth_cosine) {
   SkyPosition position;
+  position.stop.node = 0;
+  position.stop.fraction = 0.0;
   Real x = elevation_coordinate(ray.altitude_km, ray.mu, ray.meets_ground);
   position.azimuth =
       node_position(clamp(0.5 - 0.5 * azimuth_cosine, 0.0, 1.0), SKY_VIEW_AZIMUTHS);
   position.elevation = node_position(x, ray.meets_ground ? ground_rows() : sky_rows());
   if (ray.meets_ground) position.elevation.node += sky_rows();
+  return position;
+}
+
+Stops stops_on(SunlitRay ray) { return stops_of(ray.altitude_km, ray.mu, ray.length_km); }
+
+// Of the part of a ray that ends at a distance.
+SkyPosition part_position(SunlitRay whole, Real azimuth_cosine, Real end_km) {
+  SkyPosition position = sky_position(whole, azimuth_cosine);
+  Real coordinate = stop_coordinate(stops_on(whole), end_km, SKY_VIEW_STOPS);
+  position.stop.node = min(int(coordinate), max(SKY_VIEW_STOPS - 2, 0));
+  position.stop.fraction = coordinate - Real(position.stop.node);
   return position;
 }
 
@@ -45,12 +61,19 @@ Real azimuth_cosine_between(Vec3 a, Vec3 b) {
   return lengths > 0.0 ? (a.x * b.x + a.y * b.y) / lengths : 1.0;
 }
 
-Vec4 interpolated_ratio(SkyPosition position, int planes, int plane, int group) {
-  int texel = position.elevation.node * SKY_VIEW_AZIMUTHS + position.azimuth.node;
-  int low = (texel * planes + plane) * GROUPS + group;
+Vec4 ratio_at_stop(SkyPosition position, int stop, int planes, int plane, int group) {
+  int row = stop * SKY_VIEW_ELEVATIONS + position.elevation.node;
+  int low = ((row * SKY_VIEW_AZIMUTHS + position.azimuth.node) * planes + plane) * GROUPS + group;
   int high = low + SKY_VIEW_AZIMUTHS * planes * GROUPS;
   int next = planes * GROUPS;
   return mix(mix(sky_view[low], sky_view[low + next], position.azimuth.fraction),
              mix(sky_view[high], sky_view[high + next], position.azimuth.fraction),
              position.elevation.fraction);
+}
+
+Vec4 interpolated_ratio(SkyPosition position, int planes, int plane, int group) {
+  Vec4 ratio = ratio_at_stop(position, position.stop.node, planes, plane, group);
+  if (SKY_VIEW_STOPS == 1) return ratio;
+  return mix(ratio, ratio_at_stop(position, position.stop.node + 1, planes, plane, group),
+             position.stop.fraction);
 }

@@ -7,12 +7,6 @@
 // constituent, without its phase function, which is applied to each pixel: the aureole stays sharp. One
 // more for all further orders.
 
-// A pixel that shows nothing.
-void leave_out(INOUT(Path) path) {
-  path.length_km = 0.0;
-  path.meets_ground = false;
-}
-
 // The part of a camera's ray that lies in the air.
 SunlitRay view_ray(Path path, Vec3 to_sun) {
   SunlitRay ray;
@@ -81,17 +75,6 @@ void march_view(SunlitRay ray, Path path, int sun, int samples, Real scale_heigh
       }
     }
   }
-}
-
-// Mean of exp(-x) for x from 0 to an optical depth.
-Real mean_transmittance(Real depth) {
-  return depth > 0.03 ? (1.0 - exp(-depth)) / depth
-                      : 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth / 24.0));
-}
-
-Vec4 mean_transmittances(Vec4 depth) {
-  return Vec4(mean_transmittance(depth.x), mean_transmittance(depth.y),
-              mean_transmittance(depth.z), mean_transmittance(depth.w));
 }
 
 // The normalisation: for the columns of the march it makes the ratios, for the exact ones it gives back

@@ -1,4 +1,4 @@
-// A walk's ray to the end of the shell, as segments that are short where the air is dense.
+// A walk's ray to its end, as segments that are short where the air is dense.
 
 // A ray in the shell, cut at its lowest point: down to there, and on from there.
 struct Leg {
@@ -10,10 +10,13 @@ struct Leg {
   bool meets_ground;
 };
 
-Leg leg_from(Real h, Real mu) {
+// To the end of the shell, or as far as `end_km`.
+Leg leg_from(Real h, Real mu, Real end_km) {
   Leg leg;
   leg.meets_ground = meets_ground(h, mu);
   Real length_km = leg.meets_ground ? distance_to_ground(h, mu) : distance_to_top(h, mu);
+  leg.meets_ground = leg.meets_ground && length_km < end_km;
+  length_km = min(length_km, end_km);
   Real radius = scene.planet_radius_km + h;
   leg.back_km = min(max(-radius * mu, 0.0), length_km);
   leg.on_km = length_km - leg.back_km;
