@@ -416,6 +416,9 @@ TEST(Composite, OrderOneIsTheIntegralAlongThePartOfTheRay) {
     EXPECT_LT(error("path", {{"samples_per_pixel", 1}}), 1e-4);
     EXPECT_LT(error("bruneton", {}), 1e-4);
     EXPECT_LT(error("moments", {}), 1e-4);
+    // Tables of parts, and the midpoint rule.
+    EXPECT_LT(error("hillaire", {}), 0.03);
+    EXPECT_LT(error("moments", {{"march_pixels", 0}}), 0.03);
     std::printf("%s: hillaire %.4f moments' table %.4f nishita %.4f\n", view.name,
                 error("hillaire", {}), error("moments", {{"march_pixels", 0}}),
                 error("nishita", {{"view_samples", 64}, {"light_samples", 64}}));
@@ -444,6 +447,44 @@ TEST(Composite, AllOrdersAgreeWithRandomWalksWithinWhatTheMethodStates) {
                   frame.plan.expected_error, error.measure.error, error.low, error.high);
       EXPECT_LT(error.low, frame.plan.expected_error) << method;
     }
+  }
+}
+
+TEST(Composite, WalksToAnEndAgreeWithMomentTablesInDoubleAlongThePart) {
+  // Clear air, where these tables hold to a permille.
+  const json clear{{"atmosphere", {{"constituents", {{"aerosol", nullptr}}}}}};
+  for (const View& view : {views[0]}) {
+    const Scene scene = scene_of(view, clear);
+    const Problem problem = make_problem(scene, wavelengths);
+    const Output output = make_output(scene, wavelengths);
+    MomentReference reference(problem, {.degree = 4, .altitudes = 10, .suns = 16});
+    Physics<double> camera = pack<double>(problem);
+    const Picture picture = scattered_picture(view.longest_km);
+    Scene once = scene;
+    once.method.scattering_orders = 1;
+    const Samples first = values(engine().composite(once, picture, plan_of("raymarch")));
+    Samples wanted;
+    for (int i = 0; i < pixels; ++i) {
+      const glm::dvec4 further = reference.further_radiance(
+          problem, camera.pixel_ray(i).direction, picture.distance_km[i]);
+      auto& pixel = wanted.emplace_back();
+      for (int c = 0; c < 3; ++c) {
+        pixel.push_back(first[i][c] + further[c] * output.irradiance[c]);
+      }
+    }
+    const auto walked = [&](double seed) {
+      return values(engine().composite(
+          scene, picture, plan_of("path", {{"samples_per_pixel", 2048}, {"seed", seed}})));
+    };
+    const EstimatedError walks = measure_error(wanted, walked(1), walked(2));
+    EXPECT_LT(walks.low, 0.005) << view.name;
+    EXPECT_NEAR(walks.measure.bias, 0, 0.004) << view.name;
+    std::printf("%s: walks and tables differ by %.4f (%.4f to %.4f), bias %.4f\n", view.name,
+                walks.measure.error, walks.low, walks.high, walks.measure.bias);
+    const Samples moments = values(engine().composite(scene, picture, plan_of("moments")));
+    EXPECT_LT(measure_error(moments, wanted).error, 0.006) << view.name;
+    const Samples tables = values(engine().composite(scene, picture, plan_of("bruneton")));
+    EXPECT_LT(measure_error(tables, wanted).error, 0.006) << view.name;
   }
 }
 

@@ -48,13 +48,13 @@ class MomentReference {
   }
 
   /// What is scattered or reflected more than once, towards a camera of the same air.
-  /// @param end_km  where the ray ends if not before, on the ground or at the top
+  /// @param end_km  where something stands that hides the ground behind it
   Value further_radiance(const Problem& view, const glm::dvec3& direction,
                          double end_km = std::numeric_limits<double>::infinity()) {
     p_.scene = pack<double>(view).scene;
     P::Path path = p_.path_from_camera(direction);
     if (!p_.meets_planet(path)) return Value(0);
-    bool cut = end_km < path.length_km;
+    bool cut = std::isfinite(end_km);
     Ray ray = traced(path.altitude_km, path.mu, std::min(path.length_km, end_km),
                      path.meets_ground && !cut, size_.view_steps);
     glm::dvec3 axis = p_.sun_axis();
