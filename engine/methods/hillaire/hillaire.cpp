@@ -143,6 +143,8 @@ const MethodDescription& hillaire_description() {
            "taken from half of each forward peak instead.",
            "Of a number of orders above one, the series has as many terms; light that the "
            "ground reflects more than once is counted with all of its orders.",
+           "Before objects near the camera most of the air's light is of orders two and up: it "
+           "is off by 20 % in haze by day, by a third and more at sunset.",
            "The sky of a camera between 20 and 100 km is off by up to 5 % next to the horizon, "
            "where few rows of the table lie."},
       // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
