@@ -15,9 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Named by the interface, not offered by this version.
-constexpr std::array later_paths{"/v1/composite"};
-
 Answer answer_of(const HttpProblem& problem, const std::string& id) {
   Answer answer;
   answer.status = problem.status;
@@ -75,10 +72,7 @@ Answer Router::dispatch(const Request& request) const {
   }
   const std::string allow = allowed_methods(request.path);
   if (allow.empty()) {
-    const bool later = std::ranges::find(later_paths, request.path) != later_paths.end();
-    throw HttpProblem(404,
-                      later ? "This version does not offer " + request.path + " yet."
-                            : "There is nothing here; GET /openapi.json lists what there is.");
+    throw HttpProblem(404, "There is nothing here; GET /openapi.json lists what there is.");
   }
   if (request.method == "OPTIONS") return {.status = 204, .headers = {{"Allow", allow}}};
   HttpProblem problem(405, "This address takes " + allow + ".");

@@ -537,12 +537,6 @@ TEST(Addresses, UnknownOnesAreNotFound) {
   expect_problem(client().Post("/nothing", "{}", "application/json"), 404);
 }
 
-TEST(Addresses, WhatThisVersionLacksSaysSo) {
-  const auto answer = client().Post("/v1/composite", "{}", "application/json");
-  expect_problem(answer, 404);
-  EXPECT_THAT(json_of(answer).at("detail"), ::testing::HasSubstr("version"));
-}
-
 TEST(Addresses, AWrongMethodIsToldTheRightOnes) {
   const auto wrong = client().Get("/v1/radiance");
   expect_problem(wrong, 405);
