@@ -432,7 +432,7 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
   if (scene.spectrum.colour == Colour::cie) {
     std::ranges::copy_n(xyz_from_rec709().begin() + 3, 3, luminance.begin());
   }
-  Tracer tracer = this->tracer(watch);
+  Tracer tracer = this->tracer("overlay", watch);
   compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)),
                      picture, groups, luminance, store);
   frame.render_ms += tracer.device_ms;
