@@ -58,6 +58,7 @@ int run_command(int count, char** arguments) {
     say(error.what());
     return error.code;
   } catch (const Cancelled&) {
+    end_progress();
     say("cancelled");
     return exit_cancelled;
   } catch (const std::exception& error) {
@@ -92,19 +93,21 @@ Engine command_engine(const std::string& device) {
 }
 
 Watch command_watch() {
-  std::signal(SIGINT, [](int) { interrupted = 1; });
+  // As the first process of a container, it would not be stopped by what it does not take.
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = 1; });
   Watch watch;
   watch.gone = [] { return interrupted != 0; };
-  if (isatty(STDERR_FILENO)) {
-    watch.progress = [](double share) {
-      constexpr int width = 40;
-      const int filled = static_cast<int>(share * width);
-      const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                              std::string(static_cast<std::size_t>(width - filled), '.');
-      std::fprintf(stderr, "\r[%s] %3.0f %%", bar.c_str(), share * 100);
-    };
-  }
+  watch.progress = [](double share) { show_progress(share); };
   return watch;
+}
+
+void show_progress(double share, const std::string& note) {
+  if (!isatty(STDERR_FILENO)) return;
+  constexpr int width = 40;
+  const int filled = static_cast<int>(share * width);
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(width - filled), '.');
+  std::fprintf(stderr, "\r[%s] %3.0f %% %s\033[K", bar.c_str(), share * 100, note.c_str());
 }
 
 void end_progress() {

@@ -40,8 +40,10 @@ void write_file(const std::string& path, const std::string& bytes);
 /// An engine on the device whose name has this part, with the profiles that the daemon keeps.
 Engine command_engine(const std::string& device);
 
-/// A watch that SIGINT cancels and that shows a bar on a terminal.
+/// A watch that SIGINT and SIGTERM cancel and that shows a bar on a terminal.
 Watch command_watch();
+/// Draws the bar, with a note after it, on a terminal.
+void show_progress(double share, const std::string& note = "");
 /// Removes the bar.
 void end_progress();
 

@@ -7,6 +7,7 @@
 
 #include "engine/scene/document.h"
 #include "server/routes/frame.h"
+#include "server/routes/frame_patches.h"
 #include "server/routes/reading.h"
 
 namespace cyanometer {
@@ -78,43 +79,22 @@ Sequence refinement(const json& document) {
 // ---- Links
 // ------------------------------------------------------------------------------------
 
-struct Sweep {
-  std::string path;  ///< dotted
-  double from = 0, to = 0;
-};
-
-json pointer_value(const json& document, const std::string& path) {
-  std::string pointer;
-  for (const char c : path) {
-    pointer += c == '.' ? "/" : c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  }
-  const json::json_pointer place("/" + pointer);
-  return document.contains(place) ? document.at(place) : json();
-}
-
-/// @param document  of the scene where the sweep begins
-Sweep read_sweep(const std::string& path, const std::string& text, const json& document) {
-  const std::string name = "to." + path;
-  const json to = json::parse(text, nullptr, false);
-  if (!to.is_number()) refuse("/" + name, text, "a number");
-  const json from = pointer_value(document, path);
-  if (!from.is_number()) {
-    throw SceneError("/" + name, "", "a member that is a number in the scene",
-                     name + " goes to a number from what is none in the scene.");
-  }
-  return {path, from.get<double>(), to.get<double>()};
-}
-
 struct Link {
   Fields scene;
   std::optional<std::string> frames, refine;
-  Fields sweeps;  ///< without "to."
+  SweepEnds ends;
 };
 
 void set_once(std::optional<std::string>& to, const std::string& name,
               const std::string& value) {
   if (to) refuse("/" + name, value, "given once");
   to = value;
+}
+
+/// JSON where it parses, else the text.
+json value_of(const std::string& text) {
+  json value = json::parse(text, nullptr, false);
+  return value.is_discarded() ? json(text) : value;
 }
 
 Link read_link(const Fields& query) {
@@ -125,7 +105,11 @@ Link read_link(const Fields& query) {
     } else if (path == "refine") {
       set_once(link.refine, path, value);
     } else if (path.starts_with("to.")) {
-      link.sweeps.emplace_back(path.substr(3), value);
+      const std::string name = path.substr(3);
+      for (const auto& [other, end] : link.ends) {
+        if (other == name) refuse("/" + path, value, "given once");
+      }
+      link.ends.emplace_back(name, value_of(value));
     } else {
       link.scene.emplace_back(path, value);
     }
@@ -133,49 +117,13 @@ Link read_link(const Fields& query) {
   return link;
 }
 
-int read_count(const std::string& text, const Config& config) {
-  const json count = json::parse(text, nullptr, false);
-  if (!count.is_number_integer() || count.get<double>() < 1) {
-    refuse("/frames", text, "a whole number from 1");
-  }
-  check_count("/frames", count.get<double>(), config);
-  return count.get<int>();
-}
+// ---- Frames
+// -----------------------------------------------------------------------------------
 
-/// The scene's link with the swept members set.
-Fields link_at(Fields scene, const std::vector<Sweep>& sweeps, double t) {
-  for (const auto& [path, from, to] : sweeps) {
-    std::erase_if(scene, [&](const auto& field) { return field.first == path; });
-    scene.emplace_back(path, shortest(from + (to - from) * t));
-  }
-  return scene;
-}
-
-Sequence swept(const Link& link, const Request& request, const Config& config) {
-  Sequence sequence;
-  sequence.count = read_count(*link.frames, config);
-  if (link.sweeps.empty()) {
-    throw SceneError("/to", "", "to.PATH=number",
-                     "frames wants at least one to.PATH=number: what changes between them.");
-  }
-  const json start = canonical(read_scene(document_from_query(link.scene)));
-  std::vector<Sweep> sweeps;
-  for (const auto& [path, value] : link.sweeps) {
-    for (const auto& other : sweeps) {
-      if (other.path == path) refuse("/to." + path, value, "given once");
-    }
-    sweeps.push_back(read_sweep(path, value, start));
-  }
-  // Ranges have no gaps, so a scene out of range shows at the end, with the number that was
-  // given.
-  read_scene(document_from_query(link_at(link.scene, sweeps, 1)));
-  const int count = sequence.count;
-  sequence.scene = [link, sweeps, request, count](int i) {
-    const double t = count == 1 ? 0 : static_cast<double>(i) / (count - 1);
-    return scene_request(
-        with_format(document_from_query(link_at(link.scene, sweeps, t)), request));
-  };
-  return sequence;
+Sequence patched(const json& scene, const FramePatches& patches, const Config& config) {
+  check_count("/frames", patches.count, config);
+  return {patches.count,
+          [scene, patches](int i) { return scene_request(merge(scene, patches.patch(i))); }};
 }
 
 }  // namespace
@@ -187,52 +135,43 @@ Sequence sequence_of_link(const Request& request, const Config& config, const Wa
     throw SceneError("", "", "refine=true, or frames=N with to.PATH=number",
                      "A stream is asked for by either refine=true or frames=N.");
   }
-  if (link.refine && !link.sweeps.empty()) {
-    refuse("/to." + link.sweeps.front().first, link.sweeps.front().second,
-           "given with frames=N");
+  if (link.refine && !link.ends.empty()) {
+    refuse("/to." + link.ends.front().first, link.ends.front().second, "given with frames=N");
   }
+  const json scene = with_format(document_from_query(link.scene), request);
   const Sequence sequence =
-      link.refine ? refinement(with_format(document_from_query(link.scene), request))
-                  : swept(link, request, config);
+      link.refine ? refinement(scene)
+                  : patched(scene, read_sweep(scene, value_of(*link.frames), link.ends, "/to."),
+                            config);
   check(sequence, config, watch, [](int) { return ""; });
   return sequence;
 }
 
 Sequence sequence_of_body(const Request& request, const Config& config, const Watch& watch) {
-  const json document = body_document(request);
-  check_members(document, "", {"scene", "frames", "refine"});
+  json document = body_document(request);
+  check_members(document, "", {"scene", "frames", "to", "refine"});
   const json scene = with_format(document.value("scene", json::object()), request);
   if (!scene.is_object()) refuse("/scene", scene, "an object");
   const bool frames = document.contains("frames");
   if (frames == document.contains("refine")) {
-    throw SceneError("", "", "either frames or refine",
-                     "A stream has either /frames, a list of merge patches, or /refine, true.");
+    throw SceneError(
+        "", "", "either frames or refine",
+        "A stream has either /frames, merge patches or a number, or /refine, true.");
   }
   if (!frames) {
+    check_members(document, "", {"scene", "refine"});
     if (document["refine"] != true) refuse("/refine", document["refine"], "true");
     Sequence sequence;
     within("/scene", [&] { sequence = refinement(scene); });
     check(sequence, config, watch, [](int) { return "/scene"; });
     return sequence;
   }
-  const json& patches = document["frames"];
-  if (!patches.is_array() || patches.empty()) {
-    refuse("/frames", patches, "a list of merge patches");
-  }
-  check_count("/frames", static_cast<double>(patches.size()), config);
   within("/scene", [&] { check_frame(read_scene(scene), config); });
-  const auto pointer_of = [](int i) { return "/frames/" + std::to_string(i); };
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (!patches[i].is_object()) {
-      refuse(pointer_of(static_cast<int>(i)), patches[i], "a merge patch, an object");
-    }
-  }
-  Sequence sequence;
-  sequence.count = static_cast<int>(patches.size());
-  sequence.scene = [scene, patches](int i) {
-    return scene_request(merge(scene, patches[static_cast<std::size_t>(i)]));
-  };
-  check(sequence, config, watch, pointer_of);
+  document.erase("scene");
+  const FramePatches patches = read_frame_patches(scene, document);
+  const Sequence sequence = patched(scene, patches, config);
+  check(sequence, config, watch,
+        [&](int i) { return patches.listed ? patches.pointer(i) : std::string("/scene"); });
   return sequence;
 }
 

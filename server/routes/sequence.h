@@ -19,7 +19,7 @@ struct Sequence {
   bool refines = false;
 };
 
-/// {"scene", "frames": [merge patch, ...]} or {"scene", "refine": true}.
+/// {"scene"} with {"refine": true} or with frames as in frame_patches.h.
 /// @throws SceneError with pointers into the body, OverLimit
 Sequence sequence_of_body(const Request& request, const Config& config, const Watch& watch);
 

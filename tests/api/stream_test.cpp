@@ -95,6 +95,18 @@ TEST(Stream, ASweepStartsAtWhatTheSceneHas) {
             client().Post("/v1/render", tiny_scene().dump(), "application/json")->body);
 }
 
+TEST(Stream, ABodySweepsAsALinkDoes) {
+  const json sweep{{"scene", tiny_scene()}, {"frames", 3}, {"to", {{"sun.elevation_deg", -6}}}};
+  const auto answer = post(sweep);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  const auto parts = parts_of(answer->body);
+  const auto linked = parts_of(get(tiny + "&frames=3&to.sun.elevation_deg=-6")->body);
+  ASSERT_EQ(parts.size(), 3u);
+  ASSERT_EQ(linked.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(parts[i].body, linked[i].body) << i;
+}
+
 TEST(Stream, FramesAreMergedIntoTheScene) {
   const json patches{json::object(), {{"sun", {{"elevation_deg", 5}}}}, {{"preset", "mars"}}};
   const auto answer = post({{"scene", tiny_scene()}, {"frames", patches}});
@@ -191,6 +203,20 @@ TEST(Stream, BodiesAreReadStrictly) {
            {json::array(), 400, ""},
            {{{"frames", json::array()}}, 400, "/frames"},
            {{{"frames", {3}}}, 400, "/frames/0"},
+           {{{"frames", "3"}}, 400, "/frames"},
+           {{{"frames", 3}}, 400, "/to"},
+           {{{"frames", 0}, {"to", {{"sun.elevation_deg", 1}}}}, 400, "/frames"},
+           {{{"frames", 3}, {"to", 1}}, 400, "/to"},
+           {{{"frames", 3}, {"to", {{"sun.height", 1}}}}, 400, "/to/sun.height"},
+           {{{"frames", 3}, {"to", {{"sun.elevation_deg", "1"}}}},
+            400,
+            "/to/sun.elevation_deg"},
+           {{{"frames", 3}, {"to", {{"spectrum.wavelengths_nm.0", 500}}}},
+            400,
+            "/to/spectrum.wavelengths_nm.0"},
+           {{{"frames", {json::object()}}, {"to", {{"sun.elevation_deg", 1}}}}, 400, "/to"},
+           {{{"refine", true}, {"to", {{"sun.elevation_deg", 1}}}}, 400, "/to"},
+           {{{"frames", 3601}, {"to", {{"sun.elevation_deg", 1}}}}, 422, "/frames"},
            {{{"refine", false}}, 400, "/refine"},
            {{{"refine", true}, {"more", 1}}, 400, "/more"},
            {{{"scene", 3}, {"refine", true}}, 400, "/scene"},

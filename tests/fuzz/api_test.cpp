@@ -75,7 +75,14 @@ class ApiFuzzer {
   json instance(const json& schema, Hostile& hostile, unsigned number) {
     if (schema.contains("$ref")) return scene(hostile, number);
     if (schema.contains("const")) return schema["const"];
+    if (!schema.contains("type") && schema.contains("oneOf")) {
+      const json& kinds = schema["oneOf"];
+      return instance(kinds[hostile.below(kinds.size())], hostile, number);
+    }
     const std::string type = schema.value("type", "null");
+    if (type == "object" && schema.value("additionalProperties", json()).is_object()) {
+      return {{"sun.elevation_deg", instance(schema["additionalProperties"], hostile, number)}};
+    }
     if (type == "object") {
       json object = json::object();
       const json properties = schema.value("properties", json::object());
@@ -94,6 +101,8 @@ class ApiFuzzer {
       }
       return list;
     }
+    if (type == "integer")
+      return schema.value("minimum", 0) + static_cast<int>(hostile.below(3));
     if (type == "number")
       return schema.value("minimum", 0.0) / (1.0 + double(hostile.below(4)));
     if (type == "boolean") return hostile.chance(0.5);
