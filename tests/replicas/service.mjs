@@ -18,7 +18,7 @@ const until = async (is, seconds, what) => {
 };
 
 /** A request from an address; never rejects: `status` is 0 where no answer began. */
-export function ask(path, { from = '127.1.0.1', host = '127.0.0.1', port = 8000, method = 'GET', body, headers = {}, part } = {}) {
+export function ask(path, { from = '127.1.0.1', host = '127.0.0.1', port = 8000, method = 'GET', body, headers = {} } = {}) {
   return new Promise((resolve) => {
     const answer = { status: 0, headers: {}, whole: false, body: Buffer.alloc(0) };
     const request = http.request(
@@ -27,10 +27,7 @@ export function ask(path, { from = '127.1.0.1', host = '127.0.0.1', port = 8000,
         answer.status = response.statusCode;
         answer.headers = response.headers;
         const chunks = [];
-        response.on('data', (chunk) => {
-          chunks.push(chunk);
-          part?.(chunk, request);
-        });
+        response.on('data', (chunk) => chunks.push(chunk));
         response.on('close', () => {
           answer.whole = response.complete;
           answer.body = Buffer.concat(chunks);
@@ -47,6 +44,17 @@ export function ask(path, { from = '127.1.0.1', host = '127.0.0.1', port = 8000,
     request.end(body);
   });
 }
+
+/** Asks and reads nothing of the answer but its head; the result ends that. */
+export const leaveUnread = (path) => new Promise((resolve, reject) => {
+  const request = http.get({ host: '127.0.0.1', port: 8000, path, localAddress: stranger(), agent: false },
+    (response) => {
+      response.on('error', () => {});
+      response.pause();
+      resolve(() => request.destroy());
+    });
+  request.on('error', reject);
+});
 
 let clients = 0;
 /** Another address each time, so that no limit by address is met. */
