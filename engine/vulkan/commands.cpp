@@ -324,7 +324,12 @@ void Commands::fill(const Binding& to, std::uint32_t value, Order order) {
   state_->keep(to.buffer.allocation());
 }
 
-double Commands::submit_and_wait(std::chrono::nanoseconds patience) {
+std::chrono::nanoseconds Commands::usual_patience() const {
+  return std::chrono::minutes(state_->core->info.type == "cpu" ? 10 : 1);
+}
+
+double Commands::submit_and_wait(std::optional<std::chrono::nanoseconds> given) {
+  const std::chrono::nanoseconds patience = given.value_or(usual_patience());
   if (!state_->recording) begin();
   state_->end();
   const std::shared_ptr<Device::Core> core = state_->core;

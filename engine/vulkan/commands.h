@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "engine/vulkan/buffer.h"
@@ -65,8 +66,12 @@ class Commands {
 
   /// Returns when the work is done and the host may read it: its time on the device in ms, 0
   /// where the device has no clock.
-  /// @throws DeviceLost, also where the work has not ended within `patience`
-  double submit_and_wait(std::chrono::nanoseconds patience = std::chrono::seconds(60));
+  /// @throws DeviceLost, also where the work has not ended within `patience`, else within
+  /// usual_patience()
+  double submit_and_wait(std::optional<std::chrono::nanoseconds> patience = {});
+  /// A minute; ten where the device is the processor itself, which does not hang but compiles
+  /// kernels in their first dispatch, at whatever pace it is granted.
+  std::chrono::nanoseconds usual_patience() const;
 
  private:
   struct State;
