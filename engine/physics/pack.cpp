@@ -136,12 +136,20 @@ double view_scale_km(const Problem& problem) {
   return weights > 0 ? std::exp(sum / weights) : problem.thickness_km;
 }
 
+/// (node, weight) of all rules of up to `most` nodes, one after another.
+std::vector<glm::dvec2> gauss_rules(int most) {
+  std::vector<glm::dvec2> all;
+  for (int nodes = 1; nodes <= most; ++nodes) {
+    GaussRule rule = gauss_legendre(nodes);
+    for (int i = 0; i < nodes; ++i) all.emplace_back(rule.nodes[i], rule.weights[i]);
+  }
+  return all;
+}
+
 template <class Real>
 void append_quadrature(Physics<Real>& p, const Problem& problem) {
-  for (int nodes = 1; nodes <= Physics<Real>::MOST_GAUSS_NODES; ++nodes) {
-    GaussRule rule = gauss_legendre(nodes);
-    for (int i = 0; i < nodes; ++i) p.quadrature.emplace_back(rule.nodes[i], rule.weights[i]);
-  }
+  static const std::vector<glm::dvec2> rules = gauss_rules(Physics<Real>::MOST_GAUSS_NODES);
+  p.quadrature.assign(rules.begin(), rules.end());
   std::vector<double> kinks = profile_kinks_km(problem);
   for (double altitude : kinks) p.quadrature.emplace_back(altitude, 0);
   p.scene.kinks = static_cast<int>(kinks.size());
