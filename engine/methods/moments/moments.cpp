@@ -288,19 +288,28 @@ class Moments final : public Method {
                                  {vulkan::groups_for(end - first, 64)});
       });
     };
-    int media = std::max(scene.media(), 1), degree = settings.degree;
-    int a_node = 10 * media + 2 * (degree + 1) * (degree + 2);
+    int degree = settings.degree, a_node = cost_of_sky_node(scene, degree);
     if (!each_azimuth)
       run(sky_rays_, 2 * elevations * push.steps * sky_points * groups, a_node);
     run(sky_, 2 * elevations * azimuths * groups,
         push.steps * (each_azimuth ? a_node : sky_points / 2 * (degree + 2)));
-    int values = 2 * groups;
-    solver_.refine(work, tracer, scene, coarse.values, between.values, 2,
-                   {0, 0, elevations, fine_elevations, azimuths * values, 0});
-    solver_.refine(work, tracer, scene, between.values, sky->values, 2 * fine_elevations,
-                   {0, 0, azimuths, fine_azimuths, values, 1});
+    refine_sky(work, tracer, scene, coarse, between, *sky, 2 * groups);
     work.submit();
     return sky;
+  }
+
+  /// First over elevations, then over azimuths. @param values  of a direction
+  void refine_sky(PacedWork& work, Tracer& tracer, const UploadedScene& scene,
+                  const Sky& coarse, const Sky& between, const Sky& fine, int values) {
+    solver_.refine(work, tracer, scene, coarse.values, between.values, 2,
+                   {0, 0, coarse.elevations, fine.elevations, coarse.azimuths * values, 0});
+    solver_.refine(work, tracer, scene, between.values, fine.values, 2 * fine.elevations,
+                   {0, 0, coarse.azimuths, fine.azimuths, values, 1});
+  }
+
+  /// Evaluations of a node of a camera's ray.
+  static int cost_of_sky_node(const UploadedScene& scene, int degree) {
+    return 10 * std::max(scene.media(), 1) + 2 * (degree + 1) * (degree + 2);
   }
 
   std::shared_ptr<const Sky> make_parts(Tracer& tracer, const UploadedScene& scene,
@@ -325,8 +334,7 @@ class Moments final : public Method {
     std::vector<vulkan::Binding> bindings =
         scene.bind({tables.series, tables.moments, tables.series, light.values, coarse.values});
     PacedWork work(tracer);
-    int degree = settings.degree;
-    int a_node = 10 * std::max(scene.media(), 1) + 2 * (degree + 1) * (degree + 2);
+    int a_node = cost_of_sky_node(scene, settings.degree);
     for (push.stop = 0; push.stop < part_stops; ++push.stop) {
       work.run(2 * elevations * azimuths * groups, 4 * a_node, [&](int first, int end) {
         push.first = first;
@@ -335,11 +343,7 @@ class Moments final : public Method {
                                  {vulkan::groups_for(end - first, 64)});
       });
     }
-    int values = 2 * groups * part_stops;
-    solver_.refine(work, tracer, scene, coarse.values, between.values, 2,
-                   {0, 0, elevations, fine_elevations, azimuths * values, 0});
-    solver_.refine(work, tracer, scene, between.values, parts->values, 2 * fine_elevations,
-                   {0, 0, azimuths, fine_azimuths, values, 1});
+    refine_sky(work, tracer, scene, coarse, between, *parts, 2 * groups * part_stops);
     work.submit();
     return parts;
   }
