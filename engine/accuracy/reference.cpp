@@ -29,8 +29,12 @@ Scene undressed(const Scene& scene) {
   return plain;
 }
 
-json identity_of(const Scene& scene, const ReferenceGoal& goal) {
-  return {{"scene", canonical(undressed(scene))}, {"rays", goal.rays}, {"version", version()}};
+json identity_of(const Scene& scene, const std::vector<Direction>& directions) {
+  json rays = json::array();
+  for (const Direction& ray : directions) rays.push_back({ray.elevation_deg, ray.azimuth_deg});
+  return {{"scene", canonical(undressed(scene))},
+          {"rays", fingerprint(rays.dump())},
+          {"version", version()}};
 }
 
 /// Whether the halves have the shape that the rest relies on.
@@ -101,12 +105,19 @@ void add_walks(Engine& engine, const Scene& scene, std::int64_t walks, const Wat
 
 Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal& goal,
                          const std::filesystem::path& folder, const Watch& watch) {
+  return make_reference(engine, scene, sample_directions(scene, goal.rays), goal, folder,
+                        watch);
+}
+
+Reference make_reference(Engine& engine, const Scene& scene,
+                         const std::vector<Direction>& directions, const ReferenceGoal& goal,
+                         const std::filesystem::path& folder, const Watch& watch) {
   constexpr std::int64_t first_walks = 256;
-  json identity = identity_of(scene, goal);
+  json identity = identity_of(scene, directions);
   std::filesystem::path file =
       folder.empty() ? "" : folder / (fingerprint(identity.dump()) + ".json");
   Reference reference;
-  reference.directions = sample_directions(scene, goal.rays);
+  reference.directions = directions;
   if (!file.empty()) load(file, identity, scene.spectrum.wavelengths_nm.size(), reference);
   bool random = scene.method.scattering_orders.value_or(2) > 1;
   auto noisy = [&] {

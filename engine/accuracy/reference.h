@@ -34,5 +34,9 @@ struct ReferenceGoal {
 /// @throws OverLimit, Cancelled, DeviceLost
 Reference make_reference(Engine& engine, const Scene& scene, const ReferenceGoal& goal,
                          const std::filesystem::path& folder, const Watch& watch = {});
+/// The same along given rays; `goal.rays` is idle.
+Reference make_reference(Engine& engine, const Scene& scene,
+                         const std::vector<Direction>& directions, const ReferenceGoal& goal,
+                         const std::filesystem::path& folder, const Watch& watch = {});
 
 }  // namespace cyanometer

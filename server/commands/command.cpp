@@ -41,7 +41,7 @@ int run_command(int count, char** arguments) {
   for (const auto add :
        {add_serve, add_render, add_radiance, add_plan, add_compare, add_composite, add_explain,
         add_devices, add_health, add_contact_sheet, add_schema, add_bench, add_chart, add_audit,
-        add_profile, add_load, add_tables}) {
+        add_profile, add_load, add_tables, add_stability}) {
     add(app);
   }
   try {

@@ -64,5 +64,6 @@ void add_audit(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_load(CLI::App& app);
 void add_tables(CLI::App& app);
+void add_stability(CLI::App& app);
 
 }  // namespace cyanometer

@@ -13,11 +13,12 @@
 // Optical depths over which the nodes next to a camera in dense air spread.
 CONSTANT Real VIEW_DEPTHS = 6.0;
 
-// A piece of the path, looked at from its low end upwards.
+// A piece of the path, looked at from its low end upwards; from its near end where so dense air begins
+// there that nothing comes from the far one.
 struct Piece {
   Real from_km, to_km;   // distances along the path
-  bool downwards;        // the low end is the far one
-  Real altitude_km, mu;  // at the low end
+  bool downwards;        // looked at from the far end
+  Real altitude_km, mu;  // at the end that it is looked at from
 };
 
 Piece piece_between(Path path, Real from_km, Real to_km) {
@@ -30,6 +31,13 @@ Piece piece_between(Path path, Real from_km, Real to_km) {
   piece.altitude_km = altitude_after(path.altitude_km, path.mu, low_km);
   Real mu = (r * path.mu + low_km) / (scene.planet_radius_km + piece.altitude_km);
   piece.mu = max(piece.downwards ? -mu : mu, 0.0);
+  if (!piece.downwards) return piece;
+  Real near_h = altitude_after(path.altitude_km, path.mu, from_km);
+  if (largest_extinction(near_h) * (to_km - from_km) > 2.0 * VIEW_DEPTHS) {
+    piece.downwards = false;
+    piece.altitude_km = near_h;
+    piece.mu = (r * path.mu + from_km) / (scene.planet_radius_km + near_h);
+  }
   return piece;
 }
 
@@ -66,13 +74,14 @@ Real end_of_piece(Path path, Light light, Shadow shadow, Real from_km) {
   return end_km;
 }
 
-// Nodes of a piece: where the low end is the near one, light from beyond some optical depths doesn't
-// arrive.
-StretchedPath nodes_of(Piece piece) {
+// Nodes of a piece: where the near end is looked at, light from beyond some optical depths doesn't
+// arrive. Under a sun that is lower than the view, more light comes from above than the air on the way
+// takes away.
+StretchedPath nodes_of(Piece piece, Real mu_sun) {
   Real length_km = piece.to_km - piece.from_km;
   StretchedPath nodes =
       stretched_path(piece.altitude_km, piece.mu, length_km, scene.view_scale_km);
-  if (!piece.downwards) {
+  if (!piece.downwards && piece.mu < mu_sun) {
     Real depths_km = VIEW_DEPTHS / max(largest_extinction(piece.altitude_km), 1e-9);
     nodes.bend_km = min(nodes.bend_km, depths_km);
   }
@@ -98,15 +107,15 @@ void add_columns_between(Piece piece, StretchedPath nodes, Real x_from, Real x_t
 void add_lit_piece(Path path, Piece piece, int sun, int view_nodes,
                    ARRAY(Real, view_column, MEDIA_SIZE),
                    INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
-  StretchedPath nodes = nodes_of(piece);
   Real density[MEDIA_SIZE];
   Real column[MEDIA_SIZE];
   Real to_camera[MEDIA_SIZE];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) to_camera[c] = view_column[c];
   Vec3 offset = MANY_SUNS ? sun_offset(sun) : Vec3(0.0);
-  scattering_towards(
-      scattering_angle(sun_ray(path.start, offset).direction, path.direction), scattering_phase);
+  Vec3 to_sun = sun_ray(path.start, offset).direction;
+  scattering_towards(scattering_angle(to_sun, path.direction), scattering_phase);
+  StretchedPath nodes = nodes_of(piece, dot(path.start, to_sun) / length(path.start));
   Real last_x = piece.downwards ? 1.0 : 0.0;
   for (int i = 0; i < view_nodes; ++i) {
     int k = piece.downwards ? view_nodes - 1 - i : i;

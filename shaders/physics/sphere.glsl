@@ -27,7 +27,8 @@ Real horizon_cosine(Real h) {
 Real distance_to_ground(Real h, Real mu) {
   Real b = (scene.planet_radius_km + h) * mu;
   Real c = squared_height(h);
-  return c / (sqrt(max(b * b - c, 0.0)) - b);
+  // On the ground along the horizon both are 0, and so is the distance.
+  return c / max(sqrt(max(b * b - c, 0.0)) - b, 1e-30);
 }
 
 // Distance from a point inside the shell to its top, as if the ground weren't there.

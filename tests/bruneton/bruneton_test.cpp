@@ -11,7 +11,7 @@
 #include "engine/image/panels.h"
 #include "tests/bruneton/bruneton_testing.h"
 #include "tests/bruneton/workshop.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/optics/colour.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer {
 namespace {

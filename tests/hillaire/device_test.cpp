@@ -10,7 +10,7 @@
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 #include "engine/scene/presets.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::oracle {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/physics/pack.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer {
 namespace {

@@ -6,7 +6,7 @@
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer {

@@ -1,4 +1,4 @@
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The march of shaders/methods/nishita.glsl in double: the device's own code, on the CPU.
 #pragma once
 
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer::oracle {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::oracle {

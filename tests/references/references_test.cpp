@@ -10,7 +10,7 @@
 #include "engine/engine.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "tests/oracle/adaptive.h"
+#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer {

@@ -75,7 +75,7 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
   };
   int fineness = std::max(degree, 4);  // of what the moments are moments of
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
-  int thick = static_cast<int>(std::min(1.5 * largest_depth(problem), 12.0));
+  int thick = static_cast<int>(std::clamp(4 * largest_depth(problem) - 1, 0.0, 16.0));
   MomentSettings settings{.degree = degree,
                           .altitudes = sized("altitudes", 4 + fineness + thick),
                           .suns = sized("suns", 8 + 2 * fineness),

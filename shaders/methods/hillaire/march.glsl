@@ -62,12 +62,13 @@ Vec4 precise_sinh(Vec4 x) {
   return mix(sinh(x), series, step(abs(x), Vec4(0.5)));
 }
 
-// Nodes along a ray: Gauss-Legendre in u, four a panel, distance = bend sinh(u) from the lowest point. So
-// nodes are even within a scale height or a mean free path of it, and farther apart in proportion to the
-// distance beyond: thin layers, thick hazes and long rays have theirs alike. The ray is cut at the edges of
-// the shadow. Eight panels are exact to 1e-4 in a haze of optical depth 1.
+// Nodes along a ray: Gauss-Legendre in u, four a panel, distance = bend sinh(u) from its centre: the lowest
+// point, or the start where the air there lets nothing through that lies scale heights away. So nodes are
+// even within a scale height or a mean free path of it, and farther apart in proportion to the distance
+// beyond: thin layers, thick hazes and long rays have theirs alike. The ray is cut at the edges of the
+// shadow. Eight panels are exact to 1e-4 in a haze of optical depth 1.
 struct Panels {
-  Real low_km;   // distance of the lowest point
+  Real centre_km;
   Real bend_km;
   Vec4 edges;    // u of the start, the shadow's two edges, the end
   Vec3 size;     // of a panel in u, before, in and behind the shadow
@@ -81,20 +82,24 @@ int share_of(int samples, Real part, Real whole) {
   return max(1, int(0.25 * Real(samples) * part / whole + 0.5));
 }
 
-// bend = 2 min(H / mu, sqrt(2 H r)), mu the zenith cosine at the low end; at most 4 mean free paths.
+// bend = 2 min(H / mu, sqrt(2 H r)), mu the zenith cosine at the low end; at most 4 mean free paths at the
+// start.
 Panels panels_along(SunlitRay ray, Shadow shadow, int samples, Real scale_height_km) {
   Panels panels;
   Real along = (scene.planet_radius_km + ray.altitude_km) * ray.mu;
-  panels.low_km = clamp(-along, 0.0, ray.length_km);
-  Real low_h = altitude_after(ray.altitude_km, ray.mu, panels.low_km);
+  panels.centre_km = clamp(-along, 0.0, ray.length_km);
+  Real low_h = altitude_after(ray.altitude_km, ray.mu, panels.centre_km);
   Real low_radius = scene.planet_radius_km + low_h;
-  Real low_mu = abs(along + panels.low_km) / low_radius;
+  Real low_mu = abs(along + panels.centre_km) / low_radius;
   Real bend_km = 2.0 * sqrt(2.0 * scale_height_km * low_radius);
   if (bend_km * low_mu > 2.0 * scale_height_km) bend_km = 2.0 * scale_height_km / low_mu;
-  Real opacity = largest_extinction(low_h);
-  if (bend_km * opacity > 4.0) bend_km = 4.0 / opacity;
+  Real opacity = largest_extinction(ray.altitude_km);
+  if (bend_km * opacity > 4.0) {
+    bend_km = 4.0 / opacity;
+    panels.centre_km = 0.0;
+  }
   panels.bend_km = bend_km;
-  Vec4 distances = Vec4(0.0, shadow.enter_km, shadow.leave_km, ray.length_km) - panels.low_km;
+  Vec4 distances = Vec4(0.0, shadow.enter_km, shadow.leave_km, ray.length_km) - panels.centre_km;
   panels.edges = precise_asinh(distances / bend_km);
   Vec3 parts = Vec3(panels.edges.y - panels.edges.x, panels.edges.z - panels.edges.y,
                     panels.edges.w - panels.edges.z);
@@ -131,7 +136,7 @@ Panel panel_of(Panels panels, int i) {
   }
   Vec4 nodes = Vec4(gauss4_node(0), gauss4_node(1), gauss4_node(2), gauss4_node(3));
   Vec4 u = edge + size * nodes;
-  panel.distance_km = max(panels.low_km + panels.bend_km * precise_sinh(u), Vec4(0.0));
+  panel.distance_km = max(panels.centre_km + panels.bend_km * precise_sinh(u), Vec4(0.0));
   panel.stretch_km = (panels.bend_km * size) * cosh(u);
   panel.lit = into_shadow < 0 || behind >= 0;
   return panel;
@@ -141,7 +146,8 @@ Vec4 gauss4_weights() {
   return Vec4(gauss4_weight(0), gauss4_weight(1), gauss4_weight(2), gauss4_weight(3));
 }
 
-// The integrals from 0 to each node of the cubic through the values at the four nodes.
+// The integrals from 0 to each node of the cubic through the values at the four nodes; of values that vary
+// by decades between them it may be off, but never below 0.
 Vec4 integral_to_nodes(Vec4 values) {
   return Vec4(
       dot(values, Vec4(0.0869637112843634, -0.0266041800849988,
@@ -164,7 +170,7 @@ void pass_panel(SunlitRay ray, Panel panel, INOUT_ARRAY(Real, column, MEDIA_SIZE
   }
   UNROLL for (int c = 0; c < MEDIA; ++c) {
     Vec4 rate_km = density[c] * panel.stretch_km;
-    column_to[c] = column[c] + integral_to_nodes(rate_km);
+    column_to[c] = column[c] + max(integral_to_nodes(rate_km), Vec4(0.0));
     column[c] += dot(rate_km, gauss4_weights());
   }
 }

@@ -1,0 +1,17 @@
+// How the suite's figures read.
+#pragma once
+
+#include <string>
+
+#include "engine/stability/report.h"
+
+namespace cyanometer {
+
+/// Two digits that count, as a share of a hundred where that reads better.
+std::string figure(double value);
+/// As short as it goes.
+std::string number(double value);
+/// "0.3 %", "6 % at 12", "refuses".
+std::string cell_words(const StabilityCell& cell);
+
+}  // namespace cyanometer

@@ -1,0 +1,242 @@
+#include "engine/stability/random_trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "engine/accuracy/random_scene.h"
+#include "engine/scene/document.h"
+#include "engine/stability/row.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+using Samples = std::vector<std::vector<double>>;
+using Options = std::map<std::string, double>;
+
+/// Tables as small as still have something to interpolate.
+const Options& smallest_options(const std::string& method) {
+  static const std::map<std::string, Options> options{
+      {"nishita", {{"view_samples", 8}, {"light_samples", 4}}},
+      {"raymarch", {{"view_nodes", 3}}},
+      {"hillaire",
+       {{"multiple_altitudes", 8},
+        {"multiple_suns", 16},
+        {"multiple_directions", 16},
+        {"multiple_samples", 8},
+        {"sky_azimuths", 8},
+        {"sky_elevations", 16},
+        {"view_samples", 8},
+        {"transmittance_cosines", 64},
+        {"transmittance_altitudes", 16}}},
+      {"bruneton",
+       {{"orders", 2},
+        {"altitudes", 4},
+        {"zeniths", 5},
+        {"suns", 8},
+        {"azimuths", 3},
+        {"source_zeniths", 4},
+        {"source_azimuths", 3},
+        {"refinement", 1},
+        {"samples", 4},
+        {"view_samples", 8},
+        {"view_nodes", 3}}},
+      {"moments",
+       {{"degree", 2},
+        {"altitudes", 6},
+        {"suns", 12},
+        {"directions", 6},
+        {"azimuths", 4},
+        {"steps", 6},
+        {"orders", 3},
+        {"sky_steps", 6},
+        {"sky_elevations", 12},
+        {"sky_azimuths", 6},
+        {"view_nodes", 3}}},
+      {"path", {{"samples_per_pixel", 4}}}};
+  return options.at(method);
+}
+
+json with_method(json document, const MethodDescription& method,
+                 const RandomTrialSettings& settings) {
+  json& choice = document["method"];
+  choice["name"] = method.name;
+  if (settings.usual_options) return document;
+  for (const auto& [name, value] : smallest_options(method.name)) choice[name] = value;
+  return document;
+}
+
+/// Pointers to all numbers of the scene that may change a little: not counts, not pixels.
+std::vector<json::json_pointer> numbers_of(const json& document) {
+  std::vector<json::json_pointer> all;
+  const json flat = document.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number() || pointer.starts_with("/image") ||
+        pointer.starts_with("/camera/fov"))
+      continue;
+    all.emplace_back(pointer);
+  }
+  return all;
+}
+
+/// A ten-thousandth more, of 1 where it is 0, or less where more is refused.
+json nudged(const json& document, const json::json_pointer& pointer) {
+  for (double by : {1e-4, -1e-4}) {
+    json changed = document;
+    double value = document.at(pointer).get<double>();
+    changed[pointer] = value != 0 ? value * (1 + by) : by;
+    try {
+      read_scene(changed);
+      return changed;
+    } catch (const SceneError&) {
+    }
+  }
+  return document;
+}
+
+double change(double before, double after, double brightest) {
+  return std::abs(after - before) / (std::max(before, after) + 1e-3 * brightest);
+}
+
+double brightest_of(const Samples& values, std::size_t channel) {
+  double most = 0;
+  for (const auto& ray : values) most = std::max(most, ray[channel]);
+  return most;
+}
+
+/// The largest change on a ray, and which rays are looked at.
+class Sensitivity {
+ public:
+  Sensitivity(const Samples& before, const Samples& after) : kept_(before.size(), true) {
+    constexpr double jump = 0.05;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      double most = 0;
+      for (std::size_t c = 0; c < before[i].size(); ++c)
+        most = std::max(most, change(before[i][c], after[i][c], brightest_of(before, c)));
+      kept_[i] = most < jump;
+      if (kept_[i]) largest_ = std::max(largest_, most);
+    }
+  }
+
+  /// Walks that are changed a little part somewhere: what their noise explains is left out.
+  double over_allowed(const Radiances& a, const Radiances& b) const {
+    const Samples &before = a.radiance, &after = b.radiance;
+    double most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      for (std::size_t c = 0; kept_[i] && c < before[i].size(); ++c) {
+        double noise = noise_of(a, i, c) + noise_of(b, i, c);
+        double moved = std::max(std::abs(after[i][c] - before[i][c]) - noise, 0.0);
+        most =
+            std::max(most, change(before[i][c], before[i][c] + moved, brightest_of(before, c)));
+      }
+    }
+    return most / (2 * largest_ + 1e-3);
+  }
+
+ private:
+  std::vector<bool> kept_;
+  double largest_ = 0;
+};
+
+class Run {
+ public:
+  Run(Engine& engine, std::uint64_t seed, const RandomTrialSettings& settings,
+      const Watch& watch)
+      : engine_(engine), settings_(settings), watch_(watch), document_(random_scene(seed)) {
+    directions_ = sample_directions(read_scene(document_), 16);
+    result_ = {{"seed", seed}, {"failures", json::array()}, {"refusals", json::array()}};
+    if (settings.nudge) nudge(seed);
+  }
+
+  json done() {
+    for (const MethodDescription& method : methods()) attempt(method);
+    return result_;
+  }
+
+ private:
+  Trial trial(const std::string& method) const { return Trial(engine_, method, {}, 1, watch_); }
+
+  void nudge(std::uint64_t seed) {
+    auto numbers = numbers_of(document_);
+    const auto& pointer = numbers[std::mt19937_64(seed)() % numbers.size()];
+    other_ = nudged(document_, pointer);
+    result_["nudged"] = pointer.to_string();
+    result_["jumps"] = json::object();
+    Trial first = trial("raymarch");
+    sensitivity_ = Sensitivity(first.first_order(document_, directions_),
+                               first.first_order(other_, directions_));
+  }
+
+  void attempt(const MethodDescription& method) {
+    try {
+      Trial asked = trial(method.name);
+      json scene = with_method(document_, method, settings_);
+      Radiances seen = asked.look(scene, directions_);
+      if (!settings_.nudge) return;
+      // At the plan and the seed of the first.
+      Radiances after =
+          asked.look(with_method(other_, method, settings_), directions_, seen.plan);
+      result_["jumps"][method.name] = sensitivity_->over_allowed(seen, after);
+    } catch (const BrokenFrame& frame) {
+      result_["failures"].push_back({{"method", method.name}, {"what", frame.what()}});
+    } catch (const OverLimit& limit) {
+      result_["refusals"].push_back({{"method", method.name}, {"what", limit.what()}});
+    }
+  }
+
+  Engine& engine_;
+  const RandomTrialSettings& settings_;
+  const Watch& watch_;
+  json document_, other_;
+  std::vector<Direction> directions_;
+  std::optional<Sensitivity> sensitivity_;
+  json result_;
+};
+
+bool names(const json& list, const std::string& method) {
+  return std::ranges::any_of(list, [&](const json& entry) {
+    return entry.at("method").get_ref<const std::string&>() == method;
+  });
+}
+
+}  // namespace
+
+json random_trial(Engine& engine, std::uint64_t seed, const RandomTrialSettings& settings,
+                  const Watch& watch) {
+  return Run(engine, seed, settings, watch).done();
+}
+
+std::string random_report(const std::vector<json>& trials) {
+  std::ostringstream report;
+  report << "| method | scenes | broken | refused | nudged | over what is allowed | largest "
+            "change over it | seeds |\n|---|---|---|---|---|---|---|---|\n";
+  for (const MethodDescription& method : methods()) {
+    int broken = 0, refused = 0, nudges = 0, jumps = 0;
+    double largest = 0;
+    std::string seeds;
+    for (const json& trial : trials) {
+      bool bad = names(trial.at("failures"), method.name);
+      refused += names(trial.at("refusals"), method.name);
+      broken += bad;
+      if (trial.contains("jumps") && trial["jumps"].contains(method.name)) {
+        double jump = trial["jumps"][method.name];
+        ++nudges;
+        largest = std::max(largest, jump);
+        jumps += jump > 1;
+        bad |= jump > 1;
+      }
+      if (bad && seeds.size() < 60) seeds += " " + std::to_string(trial.at("seed").get<int>());
+    }
+    char numbers[128];
+    std::snprintf(numbers, sizeof numbers, "%zu | %d | %d | %d | %d | %.2g", trials.size(),
+                  broken, refused, nudges, jumps, largest);
+    report << "| `" << method.name << "` | " << numbers << " |" << seeds << " |\n";
+  }
+  return report.str();
+}
+
+}  // namespace cyanometer

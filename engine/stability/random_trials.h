@@ -1,0 +1,31 @@
+// Random scenes through every method: whether every value is finite and none negative, and
+// whether pictures change no faster than the scene does.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/engine.h"
+
+namespace cyanometer {
+
+struct RandomTrialSettings {
+  bool usual_options = false;  ///< each method at its defaults, else with its smallest tables
+  bool nudge = false;          ///< also changes one number of the scene by a ten-thousandth
+};
+
+/// {"seed", "failures": [{"method", "what"}], "refusals": the same}, and where a number was
+/// nudged {"nudged": its pointer, "jumps": {method: of all rays the largest change over what is
+/// allowed}}. Allowed are twice the largest change that order one in double makes on any ray,
+/// and 1e-3; rays on which that jumps itself, at horizons and at the edge of the shadow, are
+/// left out.
+nlohmann::json random_trial(Engine& engine, std::uint64_t seed,
+                            const RandomTrialSettings& settings, const Watch& watch = {});
+
+/// What many of them say, in Markdown: scenes, failures by method with their seeds, and how
+/// near to what is allowed the changes come.
+std::string random_report(const std::vector<nlohmann::json>& trials);
+
+}  // namespace cyanometer

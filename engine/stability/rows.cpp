@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/stability/row.h"
+
+namespace cyanometer {
+
+using nlohmann::json;
+
+const std::vector<StabilityRow>& stability_rows() {
+  static const std::vector<StabilityRow> rows = [] {
+    std::vector<StabilityRow> all;
+    for (const auto& part :
+         {rows_of_rays(), rows_of_suns(), rows_of_airs(), rows_of_energy(), rows_of_work()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    std::ranges::sort(all, {}, &StabilityRow::number);
+    return all;
+  }();
+  return rows;
+}
+
+json plain_scene() {
+  return {{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+          {"sun", {{"irradiance", 1}}},
+          {"image", {{"width", 160}, {"height", 90}}}};
+}
+
+json empty_scene() {
+  return changed(
+      plain_scene(),
+      {{"planet", {{"ground_albedo", 0}}},
+       {"atmosphere",
+        {{"constituents", {{"air", nullptr}, {"aerosol", nullptr}, {"ozone", nullptr}}}}}});
+}
+
+json changed(json scene, const json& patch) {
+  for (const auto& [name, value] : patch.items()) {
+    if (value.is_object() && scene.contains(name) && scene[name].is_object() &&
+        !value.contains("type")) {
+      scene[name] = changed(scene[name], value);
+    } else {
+      scene[name] = value;  // null too: it removes or restores when the scene is read
+    }
+  }
+  return scene;
+}
+
+double apart(double a, double b, double noise) {
+  double larger = std::max(std::abs(a), std::abs(b));
+  return larger > 0 ? std::max(std::abs(a - b) - noise, 0.0) / larger : 0;
+}
+
+double noise_of(const Radiances& seen, std::size_t ray, std::size_t channel) {
+  return seen.standard_error ? 5 * (*seen.standard_error)[ray][channel] : 0;
+}
+
+Measured larger(const Measured& a, const Measured& b) { return b.least > a.least ? b : a; }
+
+}  // namespace cyanometer

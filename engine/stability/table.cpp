@@ -1,0 +1,106 @@
+// The findings as a table.
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "engine/stability/figures.h"
+
+namespace cyanometer {
+namespace {
+
+std::string sweep_of(const StabilityRow& row) {
+  std::string all;
+  for (double value : row.sweep) all += (all.empty() ? "" : ", ") + number(value);
+  return all;
+}
+
+}  // namespace
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value >= 1e-3 ? "%.2g %%" : "%.0e",
+                value >= 1e-3 ? 100 * value : value);
+  return value > 0 ? text : "0";
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string cell_words(const StabilityCell& cell) {
+  switch (cell.outcome) {
+    case Outcome::holds:
+      return cell.points == 0 ? "" : figure(cell.worst);
+    case Outcome::degrades:
+      return figure(cell.worst) + " at " + number(cell.at);
+    case Outcome::breaks:
+      return "breaks at " + number(cell.at);
+    case Outcome::refuses:
+      return "refuses";
+    case Outcome::left_out:
+      return "leaves out";
+    case Outcome::reference:
+      return "reference";
+  }
+  return "";
+}
+
+StabilityCell cell_of(const StabilityReport& report, int row, const std::string& method) {
+  StabilityCell cell;
+  auto rank = [](Outcome outcome) {
+    switch (outcome) {
+      case Outcome::breaks:
+        return 5;
+      case Outcome::degrades:
+        return 4;
+      case Outcome::holds:
+        return 3;
+      case Outcome::refuses:
+        return 2;
+      default:
+        return 1;
+    }
+  };
+  for (const StabilityPoint& point : report.points) {
+    if (point.row != row || point.method != method) continue;
+    bool worse = cell.points == 0 || rank(point.outcome) > rank(cell.outcome) ||
+                 (point.outcome == cell.outcome && point.value > cell.worst);
+    ++cell.points;
+    cell.failed += point.outcome == Outcome::degrades || point.outcome == Outcome::breaks;
+    if (!worse) continue;
+    cell.outcome = point.outcome;
+    cell.worst = point.value;
+    cell.at = point.trigger;
+    cell.note = point.note;
+  }
+  return cell;
+}
+
+std::string stability_table(const StabilityReport& report) {
+  std::ostringstream table;
+  table << "| | row | bound |";
+  for (const std::string& method : stability_subjects()) table << " `" << method << "` |";
+  table << "\n|---|---|---|";
+  for (std::size_t i = 0; i < stability_subjects().size(); ++i) table << "---|";
+  table << "\n";
+  for (const StabilityRow& row : stability_rows()) {
+    table << "| " << row.number << " | " << row.name << " | "
+          << (row.bound > 0 ? figure(row.bound) : "none") << " |";
+    for (const std::string& method : stability_subjects()) {
+      StabilityCell cell = cell_of(report, row.number, method);
+      const char* strong = cell.failed > 0 ? "**" : "";
+      table << " " << strong << cell_words(cell) << strong << " |";
+    }
+    table << "\n";
+  }
+  table << "\n| | measured | over |\n|---|---|---|\n";
+  for (const StabilityRow& row : stability_rows()) {
+    table << "| " << row.number << " | " << row.quantity << " | " << row.trigger << ": "
+          << sweep_of(row) << " |\n";
+  }
+  return table.str();
+}
+
+}  // namespace cyanometer

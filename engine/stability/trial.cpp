@@ -1,0 +1,202 @@
+#include "engine/stability/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/accuracy/adaptive.h"
+#include "engine/accuracy/finest.h"
+#include "engine/accuracy/reference.h"
+#include "engine/problem.h"
+#include "engine/scene/document.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+using Samples = std::vector<std::vector<double>>;
+
+const MethodDescription* described(const std::string& name) {
+  for (const MethodDescription& method : methods()) {
+    if (method.name == name) return &method;
+  }
+  return nullptr;  // auto
+}
+
+/// About as many as an irradiance is summed from, whose noise they share.
+constexpr std::size_t hemisphere_rays = 8192;
+
+[[noreturn]] void broken(const char* what, double value, const Direction& at) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%s %g at elevation %g, azimuth %g", what, value,
+                at.elevation_deg, at.azimuth_deg);
+  throw BrokenFrame(text);
+}
+
+void check(const Radiances& radiances, const std::vector<Direction>& directions) {
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (double value : radiances.radiance[i]) {
+      if (!(value >= 0 && std::isfinite(value))) broken("radiance", value, directions[i]);
+    }
+    for (double value : radiances.transmittance[i]) {
+      if (!(value >= 0 && value <= 1 + 1e-6)) broken("transmittance", value, directions[i]);
+    }
+  }
+}
+
+template <class Take>
+Samples traced(const Scene& scene, const std::vector<Direction>& directions, const Take& take) {
+  const std::size_t wavelengths = scene.spectrum.wavelengths_nm.size();
+  oracle::Adaptive adaptive(pack<double>(make_problem(scene, scene.spectrum.wavelengths_nm)),
+                            1e-6);
+  Samples values;
+  for (const Direction& d : directions) {
+    double e = glm::radians(d.elevation_deg), a = glm::radians(d.azimuth_deg);
+    std::vector<double> ray = take(
+        adaptive.trace({std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)}));
+    ray.resize(wavelengths);
+    values.push_back(std::move(ray));
+  }
+  return values;
+}
+
+Samples channel(const Samples& values, std::size_t c) {
+  Samples one;
+  for (const auto& ray : values) one.push_back({ray[c]});
+  return one;
+}
+
+}  // namespace
+
+std::vector<Direction> fan(const std::vector<double>& elevations_deg,
+                           const std::vector<double>& azimuths_deg) {
+  std::vector<Direction> directions;
+  for (double elevation : elevations_deg) {
+    for (double azimuth : azimuths_deg) directions.push_back({elevation, azimuth});
+  }
+  return directions;
+}
+
+std::vector<double> spaced(double first, double last, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(first + (last - first) * i / (count - 1));
+  return values;
+}
+
+Trial::Trial(Engine& engine, std::string method, std::filesystem::path references,
+             double most_work, const Watch& watch)
+    : engine_(engine),
+      method_(std::move(method)),
+      references_(std::move(references)),
+      most_work_(most_work),
+      watch_(watch) {}
+
+bool Trial::first_order_only() const {
+  const MethodDescription* method = described(method_);
+  return method && method->highest_order == 1;
+}
+
+Scene Trial::scene_of(json document) const {
+  document["method"]["name"] = method_;
+  if (first_order_only()) document["method"]["scattering_orders"] = 1;
+  return read_scene(document);
+}
+
+Plan Trial::plan_of(const Scene& scene, std::size_t directions) const {
+  Plan plan;
+  plan.method = method_;
+  plan.options = scene.method.options;
+  plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
+  if (described(method_)->random) {
+    // Enough walks that noise does not hide what is measured.
+    double walks = most_work_ / static_cast<double>(directions);
+    plan.options["samples_per_pixel"] =
+        std::clamp(std::exp2(std::floor(std::log2(walks))), 64.0, 16384.0);
+  }
+  return plan;
+}
+
+Radiances Trial::look(const json& document, const std::vector<Direction>& directions,
+                      bool irradiance) {
+  watch_.check();
+  Scene scene = scene_of(document);
+  Radiances radiances;
+  if (method_ == "auto") {
+    radiances = engine_.radiance(scene, directions, irradiance, watch_);
+    stated_ = std::max(stated_, radiances.plan.expected_error);
+  } else {
+    radiances = engine_.radiance(
+        scene, directions, irradiance,
+        plan_of(scene, irradiance ? hemisphere_rays : directions.size()), watch_);
+  }
+  check(radiances, directions);
+  return radiances;
+}
+
+Radiances Trial::look(const json& document, const std::vector<Direction>& directions,
+                      const Plan& plan) {
+  watch_.check();
+  Radiances radiances = engine_.radiance(scene_of(document), directions, false, plan, watch_);
+  check(radiances, directions);
+  return radiances;
+}
+
+Samples Trial::first_order(const json& document, const std::vector<Direction>& directions) {
+  return traced(read_scene(document), directions, [](oracle::Ray ray) {
+    for (std::size_t w = 0; w < ray.ground.size(); ++w) ray.inscatter[w] += ray.ground[w];
+    return ray.inscatter;
+  });
+}
+
+Samples Trial::transmittance(const json& document, const std::vector<Direction>& directions) {
+  return traced(read_scene(document), directions,
+                [](const oracle::Ray& ray) { return ray.transmittance; });
+}
+
+Samples Trial::smooth_truth(const json& document, const std::vector<Direction>& directions) {
+  if (first_order_only()) return first_order(document, directions);
+  Scene scene = read_scene(document);
+  Plan plan = finest_plan(scene, scene.spectrum.wavelengths_nm);
+  return engine_.radiance(scene, directions, false, plan, watch_).radiance;
+}
+
+std::optional<Trial::Halves> Trial::compared(const json& document,
+                                             const std::vector<Direction>& directions) {
+  Scene scene = scene_of(document);
+  Halves halves;
+  if (scene.method.scattering_orders == 1) {
+    halves.a = halves.b = first_order(document, directions);
+  } else {
+    if (is_reference()) return {};
+    ReferenceGoal goal{.rays = 0, .noise = 0.004, .most_walks = 0};
+    goal.most_walks = static_cast<std::int64_t>(
+        std::clamp(most_work_ / static_cast<double>(directions.size()), 512.0, 262144.0));
+    Reference reference = make_reference(engine_, scene, directions, goal, references_, watch_);
+    halves.a = std::move(reference.halves[0]);
+    halves.b = std::move(reference.halves[1]);
+  }
+  halves.values = look(document, directions).radiance;
+  return halves;
+}
+
+std::optional<EstimatedError> Trial::error(const json& scene,
+                                           const std::vector<Direction>& directions) {
+  std::optional<Halves> found = compared(scene, directions);
+  if (!found) return {};
+  return measure_error(found->values, found->a, found->b);
+}
+
+std::optional<EstimatedError> Trial::error_by_channel(
+    const json& scene, const std::vector<Direction>& directions) {
+  std::optional<Halves> found = compared(scene, directions);
+  if (!found) return {};
+  EstimatedError worst;
+  for (std::size_t c = 0; c < found->values.front().size(); ++c) {
+    EstimatedError error =
+        measure_error(channel(found->values, c), channel(found->a, c), channel(found->b, c));
+    if (error.measure.error >= worst.measure.error) worst = error;
+  }
+  return worst;
+}
+
+}  // namespace cyanometer
