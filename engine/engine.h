@@ -120,11 +120,30 @@ struct MethodOption {
   double minimum = 0, maximum = 0, default_value = 0;
   bool integer = true, logarithmic = false;
 };
+
+/// What of a scene decides whether it comes near a method's limits.
+struct SceneTraits {
+  double sun_deg = 0;           ///< elevation at the camera's foot point
+  double depth = 0;             ///< vertical, of extinction, where it is largest
+  double haze = 0;              ///< vertical, of what particles scatter, where it is largest
+  double asymmetry = 0;         ///< largest mean cosine of what scatters a hundredth and more
+  double altitude_km = 0;       ///< of the camera
+  double thickness_km = 0;      ///< of the air
+  double sun_diameter_deg = 0;  ///< of the disc that light comes from; 0 a point
+  int scattering_orders = -1;   ///< -1 all
+};
+struct MethodLimit {
+  std::string words;
+  /// Of the stability suite: those in which it shows.
+  std::vector<int> rows = {};
+  /// Whether a scene comes near it; none: every scene does.
+  std::function<bool(const SceneTraits&)> near = {};
+};
 struct MethodDescription {
   std::string name, title, summary;
   int highest_order = -1;           ///< the highest order it computes; -1 all
   bool random = false;              ///< its values have standard errors
-  std::vector<std::string> limits;  ///< where it is not valid, in words
+  std::vector<MethodLimit> limits;  ///< where it is not valid
   std::vector<MethodOption> options;
   /// Settings of all options that `auto` may choose from, cheapest first; none where tables
   /// take seconds, which only who knows that many frames will follow should spend.
@@ -134,6 +153,8 @@ struct MethodDescription {
 };
 /// All methods there are, in the order of API.md; `auto` is not one of them.
 const std::vector<MethodDescription>& methods();
+/// The limits of the method that the scene comes near, in words.
+std::vector<std::string> limits_near(const Scene& scene, const std::string& method);
 
 struct DeviceDescription {
   std::string name, driver, api_version, type;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "engine/accuracy/error.h"
+#include "engine/methods/limits.h"
 #include "engine/optics/colour.h"
 
 namespace cyanometer {
@@ -69,11 +70,30 @@ std::vector<double> few_wavelengths(const Scene& scene) {
   return few;
 }
 
+/// Two estimates that have nothing in common, each of so many walks a ray.
+std::array<Samples, 2> walk_twice(const TraceProbe& probe, MethodOptions options,
+                                  const std::vector<double>& wavelengths_nm, double walks,
+                                  double seed) {
+  options.at("samples_per_pixel") = walks;
+  std::array<Samples, 2> halves;
+  for (Samples& half : halves) {
+    options.at("seed") = seed++;
+    half = probe("path", options, wavelengths_nm);
+  }
+  return halves;
+}
+
+/// Where all settings of the moments may be wrong alike by more than `common_error`: peaks that
+/// none resolves, and air in which light is lost from order to order.
+bool moments_may_fail(const SceneTraits& scene) {
+  return scene.depth > 2 || (scene.asymmetry > 0.85 && scene.haze > 0.1);
+}
+
 /// Says how wrong what some rays show may be.
 class Judge {
  public:
   virtual ~Judge() = default;
-  virtual double bound(const Samples& samples) = 0;
+  virtual double bound(const Samples& samples) const = 0;
 };
 
 /// By the best solution that takes no longer than a frame, its own error told from the setting
@@ -98,7 +118,12 @@ class QuickJudge final : public Judge {
     }
   }
 
-  double bound(const Samples& samples) override {
+  /// Adds what random walks say of the best solution itself.
+  void check(const std::array<Samples, 2>& walks) {
+    best_error_ += measure_error(best_, walks[0], walks[1]).measure.error;
+  }
+
+  double bound(const Samples& samples) const override {
     return frame_over_sample * measure_error(samples, best_).error + best_error_;
   }
 
@@ -115,18 +140,13 @@ class WalkJudge final : public Judge {
     constexpr double first_walks = 64, most_walks = 8192;
     // Far from the seeds that a frame of the method itself may have.
     double seed = 1 << 30;
-    for (double walks = first_walks; walks <= most_walks; walks *= 2) {
-      for (Samples& half : halves_) {
-        MethodOptions pass = options;
-        pass.at("samples_per_pixel") = walks;
-        pass.at("seed") = seed++;
-        half = probe("path", pass, wavelengths_nm);
-      }
+    for (double walks = first_walks; walks <= most_walks; walks *= 2, seed += 2) {
+      halves_ = walk_twice(probe, options, wavelengths_nm, walks, seed);
       if (measure_error(halves_[0], halves_[1]).error / 2 <= asked / 3) break;
     }
   }
 
-  double bound(const Samples& samples) override {
+  double bound(const Samples& samples) const override {
     return measure_error(samples, halves_[0], halves_[1]).high;
   }
 
@@ -182,8 +202,15 @@ class Planner {
                                          in_.scene.method.max_error.value_or(usual_error));
     }
     const Method& best = method(single_scattering(in_.scene) ? "raymarch" : "moments");
-    return std::make_unique<QuickJudge>(best, affordable_rung(best), in_.probe, few_,
-                                        in_.parts);
+    auto judge =
+        std::make_unique<QuickJudge>(best, affordable_rung(best), in_.probe, few_, in_.parts);
+    if (!single_scattering(in_.scene) && moments_may_fail(traits_of(problem_))) {
+      constexpr double walks = 1 << 15;  // of all rays together, some tenths of a second
+      double each = std::exp2(std::ceil(std::log2(walks / std::min(in_.rays, 256.0))));
+      judge->check(walk_twice(in_.probe, method("path").description().ladder.front(), few_,
+                              each, 1 << 30));
+    }
+    return judge;
   }
 
   /// The finest setting with which a judgement stays quick; of the first two, where none does.

@@ -28,7 +28,8 @@ struct PlanInputs {
 };
 
 /// Every error is measured on the probe's rays: against the best solution that is quick, at the
-/// finest setting of its ladder, whose own error is told from the setting before; or, where the
+/// finest setting of its ladder, whose own error is told from the setting before, and from
+/// random walks where the scene is one in which all settings may be wrong alike; or, where the
 /// scene asks to `verify`, against random walks, which takes seconds and owes nothing to a
 /// model.
 Plan make_plan(const PlanInputs& inputs);

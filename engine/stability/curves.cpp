@@ -36,7 +36,7 @@ StabilityRow curve(const char* name, const char* trigger, std::vector<double> sw
   StabilityRow row{.name = name,
                    .trigger = trigger,
                    .quantity = "error",
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = std::move(sweep)};
   row.scene = scene;
   row.measure = [scene](Trial& trial, double x) { return error_of_the_sky(trial, scene(x)); };

@@ -31,7 +31,8 @@ struct StabilityRow {
   double bound = 0;      ///< of the quantity; fixed before anything was measured
   /// Measured where several orders are asked for; methods that have but one leave it out.
   bool many_orders = false;
-  bool by_error = false;      ///< the quantity is the contract's error, which `auto` states
+  /// How often an error that `auto` states may enter the quantity, which is no failure then.
+  int stated_errors = 0;
   std::vector<double> sweep;  ///< values of the trigger
   double hardest = 0;         ///< the one of them that a short run measures
   /// The scene at a value of the trigger, as a document that leaves the method open.

@@ -62,7 +62,7 @@ StabilityRow coloured_haze() {
                    .trigger = "optical depth",
                    .quantity = "error of the worst channel, 2 to 40 deg from the sun",
                    .bound = 0.02,
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = {0.05, 0.2, 0.5},
                    .hardest = 0.2};
   row.scene = [](double x) {
@@ -115,7 +115,7 @@ StabilityRow forward_peaks() {
                    .trigger = "g",
                    .quantity = "error 1 to 10 deg from the sun, optical depths 1 and 8",
                    .bound = 0.02,
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = {0.9, 0.95, 0.99},
                    .hardest = 0.9};
   auto scene = [](double g, double depth) {
@@ -174,7 +174,7 @@ StabilityRow small_planets() {
                        "error of the sky at suns of 30, -5 and -20 deg: 50 km under 20 km "
                        "of air, 400 under 60, 6360 under 1000",
                    .bound = 0.02,
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = {50, 400, 6360},
                    .hardest = 400};
   row.scene = [](double x) {

@@ -75,7 +75,7 @@ StabilityRow short_paths() {
       .trigger = "distance of black ground, km",
       .quantity = "error of the light of the air before it, the sun at the horizon",
       .bound = 0.02,
-      .by_error = true,
+      .stated_errors = 1,
       .sweep = {0.001, 0.01, 0.1, 1},
       .hardest = 0.001};
   row.scene = [](double x) {
@@ -299,7 +299,7 @@ StabilityRow limb() {
                    .trigger = "camera's altitude, km",
                    .quantity = "error along tangent rays at 2 to 98 km",
                    .bound = 0.02,
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = {101, 400, 36000},
                    .hardest = 400};
   row.scene = [](double x) {

@@ -113,6 +113,7 @@ StabilityRow truncated_orders() {
                        "series of their last; no order is brighter than the one before",
                    .bound = 0.01,
                    .many_orders = true,
+                   .stated_errors = 2,
                    .sweep = {-6, -9, -12, -15, -18},
                    .hardest = -9};
   row.scene = [](double x) {
@@ -130,7 +131,7 @@ StabilityRow shadow_edge() {
                    .trigger = "sun's elevation, deg",
                    .quantity = "error across the edge opposite the sun",
                    .bound = 0.02,
-                   .by_error = true,
+                   .stated_errors = 1,
                    .sweep = {0, -0.5, -1, -2},
                    .hardest = -1};
   row.scene = [](double x) {

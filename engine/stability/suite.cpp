@@ -40,7 +40,7 @@ void measure(const StabilityRow& row, Trial& trial, StabilityPoint& point) {
   point.value = measured->value;
   point.least = measured->least;
   // What `auto` says itself is no failure.
-  double bound = row.by_error ? std::max(row.bound, point.stated) : row.bound;
+  double bound = std::max(row.bound, row.stated_errors * point.stated);
   if (row.number > 0 && !(point.least <= bound)) point.outcome = Outcome::degrades;
 }
 

@@ -24,7 +24,7 @@ const MethodDescription* described(const std::string& name) {
 }
 
 /// About as many as an irradiance is summed from, whose noise they share.
-constexpr std::size_t hemisphere_rays = 8192;
+constexpr std::size_t hemisphere_rays = 16384;
 
 [[noreturn]] void broken(const char* what, double value, const Direction& at) {
   char text[128];
@@ -111,7 +111,7 @@ Plan Trial::plan_of(const Scene& scene, std::size_t directions) const {
     // Enough walks that noise does not hide what is measured.
     double walks = most_work_ / static_cast<double>(directions);
     plan.options["samples_per_pixel"] =
-        std::clamp(std::exp2(std::floor(std::log2(walks))), 64.0, 16384.0);
+        std::clamp(std::exp2(std::floor(std::log2(walks))), 8.0, 16384.0);
   }
   return plan;
 }

@@ -60,6 +60,7 @@ json plan_document(const Scene& scene, const Plan& plan) {
   document["ms"] = plan.expected_ms;
   document["met"] = plan.met;
   document["why"] = plan.why;
+  document["limits"] = limits_near(scene, plan.method);
   document["atmosphere"] = atmosphere_key(scene);
   return document;
 }

@@ -30,12 +30,14 @@ json methods_document() {
   for (const auto& method : methods()) {
     json options = json::array();
     for (const auto& option : method.options) options.push_back(option_document(option));
+    json limits = json::array();
+    for (const auto& limit : method.limits) limits.push_back(limit.words);
     const json highest = method.highest_order < 0 ? json("all") : json(method.highest_order);
     list.push_back({{"name", method.name},
                     {"title", method.title},
                     {"summary", method.summary},
                     {"highest_order", highest},
-                    {"limits", method.limits},
+                    {"limits", limits},
                     {"options", options}});
   }
   return {{"methods", list}};

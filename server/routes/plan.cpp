@@ -32,6 +32,7 @@ json operation() {
                       {"ms", number},
                       {"met", {{"type", "boolean"}}},
                       {"why", text},
+                      {"limits", {{"type", "array"}, {"items", text}}},
                       {"atmosphere", text}}}};
   return {{"responses", openapi::responses(openapi::json_content(schema),
                                            {400, 408, 411, 413, 415, 422, 429, 503, 504})}};

@@ -331,6 +331,10 @@ Vec2 limb_half_sines() {
   return half_sines(-sqrt(max(1.0 - sine * sine, 0.0)), sine);
 }
 
+// Seen from low above it, the ground next to the horizon changes within about the horizon's own dip: there
+// shares are even in asinh(x / this), x the root of the share of the half sine.
+Real ground_bend() { return 2.0 * sqrt(max(dip_sine(scene.camera_altitude_km), 1e-6)); }
+
 // From 0 at the horizon to 1 at the nadir, the zenith, or the edge of the air.
 Real elevation_share(Vec3 direction, bool ground) {
   Vec2 half_sine = half_sines(direction.z, length(Vec2(direction.x, direction.y)));
@@ -340,12 +344,14 @@ Real elevation_share(Vec3 direction, bool ground) {
   if (!ground && scene.camera_altitude_km > scene.thickness_km) {
     square = (half_sine.y - horizon.y) / (limb_half_sines().y - horizon.y);
   }
-  return sqrt(clamp(square, 0.0, 1.0));
+  Real share = sqrt(clamp(square, 0.0, 1.0));
+  return ground ? asinh(share / ground_bend()) / asinh(1.0 / ground_bend()) : share;
 }
 
 // The direction with an elevation's share and an azimuth from `forward`, a horizontal unit vector.
 Vec3 direction_of_share(Real share, bool ground, Real azimuth, Vec2 forward) {
   Vec2 horizon = horizon_half_sines();
+  if (ground) share = ground_bend() * sinh(share * asinh(1.0 / ground_bend()));
   Real up = horizon.x * (1.0 - share * share);
   Real down = sqrt(max(1.0 - up * up, 0.0));
   bool by_down = ground || scene.camera_altitude_km > scene.thickness_km;

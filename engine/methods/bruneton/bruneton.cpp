@@ -134,15 +134,32 @@ MethodDescription describe() {
           "All orders, each from the one before, in tables over altitude, view, sun and the "
           "azimuth between them. They hold for every camera and every sun.",
       .limits =
-          {"From the second order on light is parallel and comes from the centre of the disc.",
-           "In haze of an optical depth of 0.1 under a low sun one ray in a hundred is off by "
-           "2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun of -12 deg.",
-           "Narrow forward peaks (g above 0.9) are wider than they are from the second order "
-           "on, and need more zeniths and azimuths."},
+          {{"From the second order on light is parallel and comes from the centre of the disc.",
+            {17},
+            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 1; }},
+           {"In haze of an optical depth of 0.1 under a low sun one ray in a hundred is off by "
+            "2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun of -12 deg.",
+            {2, 3, 8, 10},
+            [](const SceneTraits& scene) { return scene.sun_deg < 10; }},
+           {"Ground within a tenth of a degree of the horizon of a camera below 10 m is up to "
+            "8 "
+            "% too bright.",
+            {1, 2},
+            [](const SceneTraits& scene) { return scene.altitude_km < 0.01; }},
+           {"Narrow forward peaks (g above 0.9) are wider than they are from the second order "
+            "on, and need more zeniths and azimuths.",
+            {13, 14},
+            [](const SceneTraits& scene) { return scene.asymmetry > 0.85; }},
+           {"Air of an optical depth of 3 and more loses or gains a fifth of the light and "
+            "more.",
+            {12, 22},
+            [](const SceneTraits& scene) { return scene.depth > 2; }}},
       .options =
           {nodes("orders", "Orders computed",
-                 "Of all orders those that are computed; the others are a geometric series.", 2,
-                 64, 5),
+                 "Of all orders those that are computed; the others are a geometric series. 0: "
+                 "as many as the air's depth and the ground's albedo ask for, five at least; 1 "
+                 "counts as 2.",
+                 0, 64, 0),
            nodes("altitudes", "Altitudes", "Nodes from the ground to the top.", 4, 128, 16),
            nodes("zeniths", "Zenith nodes",
                  "Directions of view on each side of the horizon, and of the integral over "

@@ -1,7 +1,9 @@
 #include "engine/methods/bruneton/tables.h"
 
+#include <algorithm>
 #include <array>
 
+#include "engine/methods/orders.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "engine/methods/tables/fill.h"
 #include "spirv/bruneton_cells.spv.h"
@@ -43,7 +45,14 @@ struct RefinePush {
 };
 struct OrderPush {
   std::int32_t first, end, directions, first_order, last_order, tail;
+  float most_ratio;
 };
+
+/// Between an order and the one before: tables may gain light where they resolve a phase
+/// function badly, and their series would have no end.
+double most_ratio(const Problem& problem) {
+  return std::min(1 - (1 - order_ratio(problem)) / 4, 0.999);
+}
 
 /// A buffer of so many vec4, if the device can bind it.
 vulkan::Buffer table_buffer(vulkan::Device& device, std::size_t values,
@@ -98,10 +107,13 @@ std::string table_key(const UploadedScene& scene, const Setup& setup) {
          scene.air_key();
 }
 
-/// Up to most_orders of those that are asked for; of all, as many as the options say.
+/// Up to most_orders of those that are asked for; of all, as many as the options say or the
+/// scene takes. Five are quick, and two dozen come near enough to any air's series.
 int orders_to_compute(const Problem& problem, const Setup& setup) {
   int asked = problem.scattering_orders;
-  return asked < 0 ? setup.orders : std::min(asked, most_orders);
+  if (asked >= 0) return std::min(asked, most_orders);
+  if (setup.orders > 0) return std::max(setup.orders, 2);
+  return std::clamp(orders_until_geometric(problem), 5, 24);
 }
 
 }  // namespace
@@ -169,7 +181,10 @@ std::int64_t for_gathering(int cells, std::int64_t groups) { return 16 * cells *
 }  // namespace
 
 bool has_multiple(const Problem& problem) {
-  return problem.scattering_orders < 0 || problem.scattering_orders > 1;
+  bool asked = problem.scattering_orders < 0 || problem.scattering_orders > 1;
+  return asked && std::ranges::any_of(problem.media, [](const Medium& medium) {
+           return std::ranges::max(medium.scattering_per_km) > 0;
+         });
 }
 
 double evaluations(const Problem& problem, const Setup& setup) {
@@ -320,7 +335,8 @@ void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum&
   int tail = orders.last && sum.count > 0 ? orders.beyond : 0;
   work.fill(order_, rays, {sum.now(), sum.previous(), sum.sum, sum.encoded},
             std::int64_t{1} * size.groups * size.altitudes * size.directions(), 2 * size.suns,
-            OrderPush{0, 0, size.directions(), sum.count == 0, orders.last, tail});
+            OrderPush{0, 0, size.directions(), sum.count == 0, orders.last, tail,
+                      static_cast<float>(most_ratio(work.scene.problem()))});
   ++sum.count;
   auto refine = [&](const vulkan::Buffer& from, const vulkan::Buffer& to, int rows, int columns,
                     int inner) {

@@ -262,7 +262,8 @@ std::int64_t evaluations_per_node(const UploadedScene& scene) {
 float scale_height_km(const Problem& problem) {
   double height_km = problem.thickness_km;
   for (const Medium& medium : problem.media) {
-    height_km = std::min(height_km, column_km(medium.profile, problem.thickness_km));
+    if (std::ranges::max(medium.scattering_per_km) > 0)
+      height_km = std::min(height_km, column_km(medium.profile, problem.thickness_km));
   }
   return static_cast<float>(std::max(height_km, 1e-3 * problem.thickness_km));
 }

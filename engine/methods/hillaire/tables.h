@@ -94,7 +94,8 @@ std::int64_t most_nodes(int samples);
 /// Evaluations of the density that one node of a march is worth.
 std::int64_t evaluations_per_node(const UploadedScene& scene);
 
-/// The scale height that steps are fitted to: of the constituent that falls off fastest.
+/// The scale height that steps are fitted to: of the constituent that falls off fastest, of
+/// those that scatter.
 float scale_height_km(const Problem& problem);
 
 }  // namespace cyanometer::hillaire

@@ -100,28 +100,6 @@ int degree_for(const Problem& problem) {
   return degree;
 }
 
-int orders_until_geometric(const Problem& problem) {
-  std::size_t wavelengths = problem.wavelengths_nm.size();
-  std::vector<double> depth(wavelengths);  // of scattering, less half of what goes on forward
-  for (const Medium& medium : problem.media) {
-    double column = column_km(medium.profile, problem.thickness_km);
-    auto chi = legendre_coefficients(medium.phase, wavelengths, 1);
-    for (std::size_t w = 0; w < wavelengths; ++w) {
-      depth[w] += medium.scattering_per_km[w] * column * (1 - std::max(chi[w][1], 0.0) / 2);
-    }
-  }
-  double largest = 0;
-  for (std::size_t w = 0; w < wavelengths; ++w) {
-    // About what a layer and the ground under it send back to each other.
-    double air = 1.5 * depth[w] / (1 + 1.5 * depth[w]);
-    largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
-  }
-  // Three at least: light goes from the sun to the ground, to the air, and back to the ground;
-  // where that is bright, once or twice more.
-  int least = 3 + static_cast<int>(2.5 * std::ranges::max(problem.ground_albedo));
-  return least + static_cast<int>(std::min(2.5 * largest / std::max(1 - largest, 0.04), 60.0));
-}
-
 template physics::Physics<float>::MomentGrid moment_grid<float>(const Problem&, int, int);
 template physics::Physics<double>::MomentGrid moment_grid<double>(const Problem&, int, int);
 

@@ -1,4 +1,4 @@
-// Where the moment tables have their nodes, and how many orders a scene takes.
+// Where the moment tables have their nodes.
 #pragma once
 
 #include "engine/physics/physics.h"
@@ -18,9 +18,5 @@ double largest_depth(const Problem& problem);
 /// A degree for moments that leaves little of the scene's forward peaks to the aureole's
 /// channel: 2 without particles, where that is all, 4 in clear air, up to 8.
 int degree_for(const Problem& problem);
-
-/// Orders after which each is the same share of the one before, so that a geometric series
-/// closes the sum.
-int orders_until_geometric(const Problem& problem);
 
 }  // namespace cyanometer

@@ -6,6 +6,7 @@
 #include "engine/methods/hillaire/sky_tracer.h"
 #include "engine/methods/moments/grid.h"
 #include "engine/methods/moments/tables.h"
+#include "engine/methods/orders.h"
 #include "engine/methods/scratch.h"
 #include "spirv/moments.spv.h"
 #include "spirv/moments_add.spv.h"
@@ -75,13 +76,15 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
   };
   int fineness = std::max(degree, 4);  // of what the moments are moments of
   // Thick air is lit in a layer that is thin for its height, and light comes from close by.
-  int thick = static_cast<int>(std::clamp(4 * largest_depth(problem) - 1, 0.0, 16.0));
+  double depth = largest_depth(problem);
+  int steps_more = static_cast<int>(std::clamp(8 * depth - 2, 0.0, 18.0));
+  int thick = static_cast<int>(std::clamp(4 * depth - 1, 0.0, 16.0));
   MomentSettings settings{.degree = degree,
                           .altitudes = sized("altitudes", 4 + fineness + thick),
                           .suns = sized("suns", 8 + 2 * fineness),
                           .directions = sized("directions", 6 + fineness),
                           .azimuths = sized("azimuths", 2 + degree),
-                          .steps = sized("steps", 2 + fineness + thick),
+                          .steps = sized("steps", 2 + fineness + steps_more),
                           .orders = chosen("orders", orders_until_geometric(problem)),
                           .tail = true};
   settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
@@ -434,13 +437,32 @@ const MethodDescription& moments_description() {
           "Order one by a Gauss march on every ray; all others from small tables of the "
           "light's spherical-harmonic moments over altitude and the sun's elevation.",
       .limits =
-          {"Forward peaks sharper than the moments resolve (g above 0.8 at an optical depth of "
-           "0.2 and more) blur the light next to a low sun and to the horizon.",
-           "What is scattered more than once comes from the centre of the sun's disc.",
-           "Before objects near the camera the air's light is off by 4 % in haze at dusk.",
-           "Order one, where it is read from a table, is off by 0.5 % for cameras above 20 km, "
-           "and "
-           "by 1 % in twilight."},
+          {{"Forward peaks sharper than the moments resolve (g above 0.8 at an optical depth "
+            "of "
+            "0.2 and more) blur the light next to a low sun and to the horizon.",
+            {3, 13, 14},
+            [](const SceneTraits& scene) {
+              return scene.asymmetry > 0.85 || (scene.asymmetry > 0.7 && scene.haze > 0.15);
+            }},
+           {"What is scattered more than once comes from the centre of the sun's disc.",
+            {17},
+            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 5; }},
+           {"Before objects near the camera the air's light is off by 4 to 7 % in haze at "
+            "dusk.",
+            {2},
+            [](const SceneTraits& scene) { return scene.haze > 0.02 && scene.sun_deg < 5; }},
+           {"Late twilight is off by 3 % at a sun of -9 deg and 8 % at -12, where a number of "
+            "orders is asked for by as much again.",
+            {7, 8},
+            [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
+           {"Thick air loses light: of an optical depth of 3 over white ground 2 %, of 10 up "
+            "to "
+            "12 %.",
+            {12, 22},
+            [](const SceneTraits& scene) { return scene.depth > 2; }},
+           {"Order one, where it is read from a table, is off by 0.5 % for cameras above 20 "
+            "km, "
+            "and by 1 % in twilight."}},
       .options =
           {whole("degree", "Degree",
                  "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "

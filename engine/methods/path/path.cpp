@@ -198,8 +198,12 @@ const MethodDescription& path_description() {
           "every value.",
       .highest_order = -1,
       .random = true,
-      .limits = {"Half of the noise costs four times the time.",
-                 "In late twilight and in thick clouds the noise is largest."},
+      .limits = {{"Half of the noise costs four times the time."},
+                 {"In late twilight and in thick clouds the noise is largest.",
+                  {},
+                  [](const SceneTraits& scene) {
+                    return scene.sun_deg < -6 || scene.depth > 2;
+                  }}},
       .options = {{.name = "samples_per_pixel",
                    .title = "Walks",
                    .description = "Random walks for each pixel or direction.",

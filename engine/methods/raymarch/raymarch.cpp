@@ -90,9 +90,13 @@ const MethodDescription& raymarch_description() {
           "the air thins out.",
       .highest_order = 1,
       .limits =
-          {"Multiple scattering is left out: the blue of the sky is up to half too dark, "
-           "twilight and thick haze far too dark.",
-           "In haze of an optical depth of 1 a low sun needs more nodes than the default."},
+          {{"Multiple scattering is left out: the blue of the sky is up to half too dark, "
+            "twilight and thick haze far too dark.",
+            {},
+            [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
+           {"In haze of an optical depth of 1 a low sun needs more nodes than the default.",
+            {},
+            [](const SceneTraits& scene) { return scene.haze > 0.5 && scene.sun_deg < 5; }}},
       .options = {{.name = "view_nodes",
                    .title = "View nodes",
                    .description = "Gauss nodes on each smooth piece of a view ray.",

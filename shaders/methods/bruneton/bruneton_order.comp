@@ -23,6 +23,7 @@ layout(push_constant) uniform Push {
   int first_order; // begins the sum
   int last_order;  // writes the sum
   int tail;        // orders beyond the last, -1 all
+  float most_ratio;
 } push;
 
 // Two neighbours in the sun's direction differ by a factor that changes from node to node by this
@@ -32,7 +33,7 @@ const Real MOST_BEND = 2.0;
 // The orders beyond as a geometric series of the ratio of the last two.
 Vec4 beyond(Vec4 last, Vec4 previous) {
   if (push.tail == 0) return Vec4(0.0);
-  Vec4 ratio = clamp(last / max(previous, Vec4(1e-30)), Vec4(0.0), Vec4(0.999));
+  Vec4 ratio = clamp(last / max(previous, Vec4(1e-30)), Vec4(0.0), Vec4(push.most_ratio));
   Vec4 cut = push.tail < 0 ? Vec4(0.0) : pow(max(ratio, Vec4(1e-30)), Vec4(Real(push.tail)));
   return last * ratio * (1.0 - cut) / (1.0 - ratio);
 }

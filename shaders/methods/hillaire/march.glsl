@@ -51,14 +51,16 @@ Shadow shadow_over(SunlitRay ray) {
 // The built-in functions are made from exponentials and lose all digits of small arguments, which short rays
 // have.
 Vec4 precise_asinh(Vec4 x) {
-  Vec4 square = x * x;
-  Vec4 series = x * (1.0 - square * (1.0 / 6.0 - square * (3.0 / 40.0 - square * (15.0 / 336.0))));
+  Vec4 small = clamp(x, Vec4(-0.2), Vec4(0.2));  // powers of more might not be finite
+  Vec4 square = small * small;
+  Vec4 series = small * (1.0 - square * (1.0 / 6.0 - square * (3.0 / 40.0 - square * (15.0 / 336.0))));
   return mix(asinh(x), series, step(abs(x), Vec4(0.2)));
 }
 
 Vec4 precise_sinh(Vec4 x) {
-  Vec4 square = x * x;
-  Vec4 series = x * (1.0 + square * (1.0 / 6.0 + square * (1.0 / 120.0 + square / 5040.0)));
+  Vec4 small = clamp(x, Vec4(-0.5), Vec4(0.5));
+  Vec4 square = small * small;
+  Vec4 series = small * (1.0 + square * (1.0 / 6.0 + square * (1.0 / 120.0 + square / 5040.0)));
   return mix(sinh(x), series, step(abs(x), Vec4(0.5)));
 }
 
