@@ -17,17 +17,13 @@
 #include "engine/optics/profile.h"
 #include "engine/optics/spectrum.h"
 #include "engine/optics/sunlight.h"
+#include "engine/optics/visibility.h"
 #include "engine/scene/document.h"
 
 namespace cyanometer {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-/// Wavelengths at which a coefficient follows from an optical depth or a visibility.
-constexpr double visibility_at_nm = 550;
-/// ln 50: Koschmieder's range at which a black object's contrast is 2 %.
-constexpr double visibility_optical_depth = 3.912;
 
 // ---- Media
 // --------------------------------------------------------------------------------------

@@ -43,40 +43,28 @@ Plan plan_for(const Scene& scene, const std::string& method,
 }
 
 /// Once for the pipelines, once with tables to be made, then as often as is worth it.
-void measure_time(Engine& engine, const Scene& scene, const Plan& plan, double longest_ms,
-                  const Watch& watch, ChartPoint& point) {
+/// @param made_ms  spent on tables before this point
+void measure_time(Engine& engine, const Scene& scene, const Plan& plan,
+                  const ChartSettings& settings, double made_ms, const Watch& watch,
+                  ChartPoint& point) {
   constexpr int frames = 5;
   Scene timed = scene;
   timed.image.format = ImageFormat::npy;  // without display
   engine.render(timed, plan, watch);
-  engine.forget_tables();
-  double made_before = engine.tables().making_ms;
+  if (!settings.keep_tables) {
+    engine.forget_tables();
+    made_ms = engine.tables().making_ms;
+  }
   std::vector<double> times;
   do {
     times.push_back(engine.render(timed, plan, watch).render_ms);
-  } while (times.size() < frames && times.front() < longest_ms / frames);
-  point.tables_ms = engine.tables().making_ms - made_before;
+  } while (times.size() < frames && times.front() < settings.longest_ms / frames);
+  point.tables_ms = engine.tables().making_ms - made_ms;
   point.tables_mib = static_cast<double>(engine.tables().bytes) / (1 << 20);
   std::ranges::sort(times);
   point.frame_ms = times[times.size() / 2];
   point.fastest_ms = times.front();
   point.slowest_ms = times.back();
-}
-
-ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& reference,
-                         const Plan& plan, const ChartSettings& settings, const Watch& watch) {
-  ChartPoint point;
-  point.method = plan.method;
-  point.options = plan.options;
-  try {
-    auto values = engine.radiance(scene, reference.directions, false, plan, watch).radiance;
-    point.error = measure_error(values, reference.halves[0], reference.halves[1]);
-    measure_time(engine, scene, plan, settings.longest_ms, watch, point);
-  } catch (const OverLimit& limit) {
-    point.failure = limit.what();
-  }
-  engine.forget_tables();
-  return point;
 }
 
 const ChartPoint* find(const ChartScene& scene, const std::string& method,
@@ -85,26 +73,6 @@ const ChartPoint* find(const ChartScene& scene, const std::string& method,
     return point.method == method && point.options == options;
   });
   return found == scene.points.end() ? nullptr : &*found;
-}
-
-json point_document(const ChartPoint& point) {
-  const ErrorMeasure& measure = point.error.measure;
-  json document{{"method", point.method}, {"options", point.options}};
-  if (!point.failure.empty()) {
-    document["failure"] = point.failure;
-    return document;
-  }
-  document.update({{"error", measure.error},
-                   {"error_95", {point.error.low, point.error.high}},
-                   {"bias", measure.bias},
-                   {"p99", measure.p99},
-                   {"max", measure.max},
-                   {"frame_ms", point.frame_ms},
-                   {"fastest_ms", point.fastest_ms},
-                   {"slowest_ms", point.slowest_ms},
-                   {"tables_ms", point.tables_ms},
-                   {"tables_mib", point.tables_mib}});
-  return document;
 }
 
 ChartPoint point_from(const json& document) {
@@ -134,6 +102,46 @@ std::map<std::string, double> defaults_of(const MethodDescription& method) {
 }
 
 }  // namespace
+
+json point_document(const ChartPoint& point) {
+  const ErrorMeasure& measure = point.error.measure;
+  json document{{"method", point.method}, {"options", point.options}};
+  if (!point.failure.empty()) {
+    document["failure"] = point.failure;
+    return document;
+  }
+  document.update({{"error", measure.error},
+                   {"error_95", {point.error.low, point.error.high}},
+                   {"bias", measure.bias},
+                   {"p99", measure.p99},
+                   {"max", measure.max},
+                   {"frame_ms", point.frame_ms},
+                   {"fastest_ms", point.fastest_ms},
+                   {"slowest_ms", point.slowest_ms},
+                   {"tables_ms", point.tables_ms},
+                   {"tables_mib", point.tables_mib}});
+  return document;
+}
+
+ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& reference,
+                         const std::string& method,
+                         const std::map<std::string, double>& options,
+                         const ChartSettings& settings, const Watch& watch) {
+  const Plan plan = plan_for(scene, method, options);
+  const double made_ms = engine.tables().making_ms;
+  ChartPoint point;
+  point.method = method;
+  point.options = options;
+  try {
+    auto values = engine.radiance(scene, reference.directions, false, plan, watch).radiance;
+    point.error = measure_error(values, reference.halves[0], reference.halves[1]);
+    measure_time(engine, scene, plan, settings, made_ms, watch, point);
+  } catch (const OverLimit& limit) {
+    point.failure = limit.what();
+  }
+  if (!settings.keep_tables) engine.forget_tables();
+  return point;
+}
 
 Scene charted(const Scene& scene, int pixels) {
   Scene result = scene;
@@ -182,8 +190,8 @@ void measure_points(Engine& engine, const ChartSettings& settings, const Watch& 
           chart.walks = reference->walks;
           chart.noise = reference->noise;
         }
-        chart.points.push_back(measure_point(
-            engine, scene, *reference, plan_for(scene, method.name, options), settings, watch));
+        chart.points.push_back(
+            measure_point(engine, scene, *reference, method.name, options, settings, watch));
         known = &chart.points.back();
         done(*known);
       }

@@ -49,6 +49,9 @@ struct ChartSettings {
       1e4;  ///< a method's settings beyond one whose frame takes longer are left out
   std::vector<std::string> methods;  ///< none: all
   bool defaults_only = false;        ///< each method once, as it is where nothing is asked
+  /// Tables that others share stay: what making them takes is told of those alone that are not
+  /// there yet.
+  bool keep_tables = false;
 };
 
 /// The scene as it is charted: at three wavelengths where it leaves them open, since otherwise
@@ -57,6 +60,13 @@ Scene charted(const Scene& scene, int pixels);
 
 /// The settings at which a method is charted, roughly cheapest first.
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method);
+
+/// One point. @param scene as it is charted, and as it was for the reference
+/// @throws Cancelled, DeviceLost
+ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& reference,
+                         const std::string& method,
+                         const std::map<std::string, double>& options,
+                         const ChartSettings& settings, const Watch& watch);
 
 /// Adds the points that `scene` lacks, and calls `done` after each. @param scene has its
 /// document
@@ -67,6 +77,7 @@ void measure_points(Engine& engine, const ChartSettings& settings, const Watch& 
 /// fastest first; places in `points`.
 std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double frames);
 
+nlohmann::json point_document(const ChartPoint& point);
 nlohmann::json chart_document(const Chart& chart);
 /// What chart_document wrote. @throws nlohmann::json::exception
 Chart chart_from(const nlohmann::json& document);

@@ -23,7 +23,7 @@ void radiance(const Arguments& arguments) {
   const auto radiances =
       engine.radiance(asked.scene, asked.directions, asked.irradiance, watch);
   end_progress();
-  print(radiance_document(radiances));
+  print(radiance_document(asked.scene, radiances));
 }
 
 void plan(const Arguments& arguments) {

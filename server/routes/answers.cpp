@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/accuracy/finest.h"
 #include "engine/scene/document.h"
 #include "server/routes/reading.h"
 
@@ -52,6 +53,21 @@ Scene read_scene_at(const std::string& pointer, const json& document) {
   return scene;
 }
 
+/// `rgb` as in files, and of colours that an observer would see, the luminance.
+void add_colours(const Scene& scene, const Radiances& radiances, json& out) {
+  const RayColours colours(scene, radiances.wavelengths_nm);
+  json rgb = json::array(), luminance = nullptr;
+  for (const auto& ray : radiances.radiance) rgb.push_back(colours.rgb(ray));
+  if (scene.spectrum.colour == Colour::cie) {
+    luminance = json::array();
+    for (const auto& xyz : colours.error_channels(radiances.radiance)) {
+      luminance.push_back(xyz[1] * colours.output().white_luminance);
+    }
+  }
+  out["rgb"] = rgb;
+  out["luminance_cd_m2"] = luminance;
+}
+
 }  // namespace
 
 json plan_document(const Scene& scene, const Plan& plan) {
@@ -80,7 +96,7 @@ RadianceRequest read_radiance_request(const json& document) {
   return out;
 }
 
-json radiance_document(const Radiances& radiances) {
+json radiance_document(const Scene& scene, const Radiances& radiances) {
   json out{{"wavelengths_nm", radiances.wavelengths_nm},
            {"radiance", radiances.radiance},
            {"standard_error", nullptr},
@@ -93,6 +109,7 @@ json radiance_document(const Radiances& radiances) {
                          {"diffuse_down", flux->diffuse_down},
                          {"diffuse_up", flux->diffuse_up}};
   }
+  add_colours(scene, radiances, out);
   return out;
 }
 

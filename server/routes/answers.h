@@ -23,8 +23,8 @@ constexpr std::size_t most_directions = 4096;
 /// @throws SceneError with pointers into the body, OverLimit for too many directions
 RadianceRequest read_radiance_request(const nlohmann::json& document);
 
-/// The answer of /v1/radiance.
-nlohmann::json radiance_document(const Radiances& radiances);
+/// The answer of /v1/radiance for a scene.
+nlohmann::json radiance_document(const Scene& scene, const Radiances& radiances);
 
 /// The body of /v1/compare, read: scenes that can be compared.
 struct CompareRequest {

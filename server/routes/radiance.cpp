@@ -25,7 +25,7 @@ Answer radiance(const Request& request, Service& service) {
            radiances = engine.radiance(asked.scene, asked.directions, asked.irradiance, w);
          }});
   });
-  return json_answer(radiance_document(radiances));
+  return json_answer(radiance_document(asked.scene, radiances));
 }
 
 json operation() {
@@ -61,6 +61,14 @@ json operation() {
         {"transmittance", table},
         {"method", {{"type", "string"}}},
         {"error", {{"type", "number"}}},
+        {"rgb",
+         {{"type", "array"},
+          {"items", list},
+          {"description", "By direction, in the unit of an EXR's R, G, B."}}},
+        {"luminance_cd_m2",
+         {{"type", {"array", "null"}},
+          {"items", {{"type", "number"}}},
+          {"description", "By direction; null where the three wavelengths are R, G, B."}}},
         {"irradiance",
          {{"type", "object"},
           {"properties", {{"direct", list}, {"diffuse_down", list}, {"diffuse_up", list}}}}}}}};

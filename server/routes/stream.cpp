@@ -1,11 +1,11 @@
 // POST and GET /v1/stream: frames one after the other in one answer.
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "server/current_problem.h"
 #include "server/log.h"
 #include "server/routes/frame.h"
 #include "server/routes/openapi.h"
+#include "server/routes/patience.h"
 #include "server/routes/route.h"
 #include "server/routes/sequence.h"
 #include "server/routes/steady_plans.h"
@@ -67,7 +67,12 @@ class Stream {
       if (part.last) return true;
       part.frame = {};  // so that it is not held while the next is made
       try {
-        part = patiently();
+        const Watch watch = service_.watch(request_);
+        const int place = next_;
+        part = patiently(watch, [&] {
+          next_ = place;
+          return next(watch);
+        });
       } catch (...) {
         send_problem(write, current_problem());
         return false;
@@ -88,19 +93,6 @@ class Stream {
     const std::string body = problem_json(problem, request_.id);
     write("Content-Type: application/problem+json\r\nContent-Length: " +
           std::to_string(body.size()) + "\r\n\r\n" + body + "\r\n--" + boundary + "--\r\n");
-  }
-
-  /// The next part; a stream that has begun waits where a new request would be turned away.
-  Part patiently() {
-    const Watch watch = service_.watch(request_);
-    for (const int place = next_;; next_ = place) {
-      try {
-        return next(watch);
-      } catch (const QueueFull&) {
-        watch.check();
-        std::this_thread::sleep_for(std::chrono::milliseconds(30));
-      }
-    }
   }
 
   Part next(const Watch& watch) {

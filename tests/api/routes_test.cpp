@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <set>
+#include <sstream>
 
 #include "engine/engine.h"
 #include "engine/image/encode.h"
@@ -218,6 +221,38 @@ TEST(Radiance, EachDirectionHasAValueForEachWavelength) {
   }
 }
 
+TEST(Radiance, ColourAndLuminanceAreThoseOfThePicture) {
+  json scene = small_scene();
+  scene["camera"] = {{"fov_deg", 1}, {"pitch_deg", 40}, {"heading_deg", 120}};
+  scene["method"] = {{"name", "raymarch"}};
+  scene["spectrum"] = {{"wavelengths_nm", {420, 460, 500, 540, 580, 620, 660}},
+                       {"colour", "cie"}};
+  scene["image"] = {{"width", 1}, {"height", 1}, {"format", "npy"}};
+  const auto image = post("/v1/render", scene);
+  ASSERT_EQ(image->status, 200) << image->body;
+  std::array<float, 3> pixel{};
+  std::memcpy(pixel.data(), image->body.data() + image->body.size() - sizeof pixel,
+              sizeof pixel);
+  const auto answer = json_of(post(
+      "/v1/radiance",
+      {{"scene", scene}, {"directions", {{{"elevation_deg", 40}, {"azimuth_deg", 120}}}}}));
+  const auto& rgb = answer.at("rgb").at(0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(rgb.at(c).get<double>(), pixel[c], 1e-4 * pixel[c]);
+  }
+  // Rec. 709's luminance, in kcd/m^2.
+  const double y = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
+  EXPECT_NEAR(answer.at("luminance_cd_m2").at(0).get<double>(), 1000 * y, 0.5 * y);
+}
+
+TEST(Radiance, ChannelsHaveNoLuminance) {
+  const auto answer = json_of(
+      post("/v1/radiance", {{"scene", {{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}}}},
+                            {"directions", {{{"elevation_deg", 90}, {"azimuth_deg", 0}}}}}));
+  EXPECT_TRUE(answer.at("luminance_cd_m2").is_null());
+  EXPECT_EQ(answer.at("rgb").at(0).size(), 3u);
+}
+
 TEST(Radiance, TheBodyIsReadStrictly) {
   const json up{{"elevation_deg", 90}, {"azimuth_deg", 0}};
   const auto with = [](const char* name, const json& value) {
@@ -415,6 +450,115 @@ TEST(Explain, RefusesAsOtherRoutesDo) {
                  "/planet/radius_km");
   expect_problem(client().Post("/v1/explain", "", "application/json"), 400);
   expect_problem(post("/v1/explain", quick_scene(), {{"Accept", "image/png"}}), 406);
+}
+
+// ---- what the page draws
+// ----------------------------------------------------------------------------
+
+TEST(Optics, ConstituentsComeAsCurves) {
+  const auto answer = json_of(post("/v1/optics", {{"preset", "earth"}}));
+  const auto altitudes = answer.at("altitude_km").size();
+  const auto wavelengths = answer.at("wavelengths_nm").size();
+  for (const auto* name : {"air", "aerosol", "ozone"}) {
+    const auto& each = answer.at("constituents").at(name);
+    EXPECT_EQ(each.at("density").size(), altitudes);
+    EXPECT_EQ(each.at("scattering_per_km").size(), wavelengths);
+    EXPECT_EQ(each.at("absorption_per_km").size(), wavelengths);
+    EXPECT_EQ(each.at("optical_depth").size(), wavelengths);
+  }
+  const auto& phase = answer.at("constituents").at("aerosol").at("phase");
+  ASSERT_EQ(phase.size(), answer.at("phase_wavelengths_nm").size());
+  EXPECT_EQ(phase[0].size(), answer.at("angle_deg").size());
+  EXPECT_TRUE(answer.at("constituents").at("ozone").at("phase").is_null());
+}
+
+TEST(Optics, RefusesAsOtherRoutesDo) {
+  expect_problem(post("/v1/optics", {{"planet", {{"radius_km", -1}}}}), 400,
+                 "/planet/radius_km");
+  expect_problem(client().Post("/v1/optics", "", "application/json"), 400);
+}
+
+TEST(Day, HasItsTimesAndMoments) {
+  const auto day = json_of(post("/v1/day", {{"latitude_deg", 48.85},
+                                            {"longitude_deg", 2.35},
+                                            {"date", "2026-06-21"},
+                                            {"utc_offset_min", 120}}));
+  EXPECT_LT(day.at("dawn"), day.at("sunrise"));
+  EXPECT_LT(day.at("sunset"), day.at("dusk"));
+  EXPECT_EQ(day.at("moments").size(), 145u);
+  EXPECT_NEAR(day.at("highest").at("elevation_deg").get<double>(), 90 - 48.85 + 23.44, 0.1);
+  const auto night = json_of(
+      post("/v1/day", {{"latitude_deg", 80}, {"longitude_deg", 0}, {"date", "2026-12-21"}}));
+  EXPECT_TRUE(night.at("sunrise").is_null());
+}
+
+TEST(Day, TheBodyIsReadStrictly) {
+  const json sound{{"latitude_deg", 10}, {"longitude_deg", 20}, {"date", "2026-06-21"}};
+  const std::vector<std::pair<json, std::string>> cases{
+      {{{"latitude_deg", 91}}, "/latitude_deg"},
+      {{{"latitude_deg", nullptr}}, "/latitude_deg"},
+      {{{"longitude_deg", "20"}}, "/longitude_deg"},
+      {{{"date", "2026-13-01"}}, "/date"},
+      {{{"date", 20260621}}, "/date"},
+      {{{"utc_offset_min", 1.5}}, "/utc_offset_min"},
+      {{{"utc_offset_min", 900}}, "/utc_offset_min"},
+      {{{"more", 1}}, "/more"}};
+  for (const auto& [change, pointer] : cases) {
+    json body = sound;
+    body.update(change);
+    SCOPED_TRACE(body.dump());
+    expect_problem(post("/v1/day", body), 400, pointer);
+  }
+  expect_problem(post("/v1/day", {{"longitude_deg", 1}, {"date", "2026-01-01"}}), 400,
+                 "/latitude_deg");
+}
+
+/// One order of scattering has no noise: its reference takes no walks.
+const json single_order{{"method", {{"scattering_orders", 1}}}};
+
+TEST(Chart, PointsComeLineByLineUntilTheReaderLeaves) {
+  std::string text;
+  std::size_t lines = 0;
+  const auto answer = [&] {
+    auto to = client();
+    httplib::Request request;
+    request.method = "POST";
+    request.path = "/v1/chart";
+    request.body = single_order.dump();
+    request.content_receiver = [&](const char* data, std::size_t length, auto, auto) {
+      text.append(data, length);
+      lines = count(text, "\n");
+      return lines < 4;
+    };
+    return to.send(request);
+  }();
+  ASSERT_GE(lines, 4u) << text;
+  std::istringstream stream(text);
+  std::string line;
+  std::getline(stream, line);
+  const auto head = json::parse(line);
+  EXPECT_GT(head.at("points"), 10);
+  EXPECT_EQ(head.at("width"), 160);
+  std::set<std::string> methods_seen;
+  for (int i = 0; i < 3; ++i) {
+    std::getline(stream, line);
+    const auto point = json::parse(line);
+    methods_seen.insert(point.at("method"));
+    EXPECT_GE(point.at("error").get<double>(), 0);
+    EXPECT_GT(point.at("frame_ms").get<double>(), 0);
+    EXPECT_FALSE(point.at("options").empty());
+  }
+  EXPECT_EQ(methods_seen.size(), 3u) << "each method has its turn";
+  // Nobody reads on: the device is soon free.
+  const auto frame = post("/v1/render", small_scene());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->status, 200);
+}
+
+TEST(Chart, RefusesAsOtherRoutesDo) {
+  expect_problem(post("/v1/chart", {{"planet", {{"radius_km", -1}}}}), 400,
+                 "/planet/radius_km");
+  expect_problem(post("/v1/chart", {{"image", {{"width", 8192}, {"height", 8192}}}}), 422);
 }
 
 // ---- lists, documents, operations
