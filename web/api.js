@@ -1,5 +1,6 @@
 // The daemon's HTTP interface: answers as values, failures as three kinds of error.
 
+import { Broken, readLines, readParts } from './multipart.js';
 import { toQuery } from './paths.js';
 
 /** The daemon read the request and refuses it (problem+json). */
@@ -41,7 +42,17 @@ async function readBody(read) {
     return await read();
   } catch (error) {
     if (error.name === 'AbortError') throw error;
-    throw new Gone('The daemon went away in the middle of an answer.');
+    throw goneMidway();
+  }
+}
+const goneMidway = () => new Gone('The daemon went away in the middle of an answer.');
+
+// The same for answers in pieces, where what takes the pieces may fail too.
+async function readPieces(read) {
+  try {
+    await read();
+  } catch (error) {
+    throw error instanceof Broken ? goneMidway() : error;
   }
 }
 
@@ -66,6 +77,64 @@ export async function render(scene, signal) {
   const answer = await post('/v1/render', scene, signal);
   const blob = await readBody(() => answer.blob());
   return { blob, facts: readFacts(answer.headers) };
+}
+
+const postJson = async (address, body, signal) => {
+  const answer = await post(address, body, signal);
+  return readBody(() => answer.json());
+};
+const postPicture = async (address, body, signal, type = 'application/json') => {
+  const answer = await send(address, { method: 'POST', body, signal, headers: {
+    'Content-Type': type, Accept: 'image/png' } });
+  return readBody(() => answer.blob());
+};
+
+/** Spectra and colours along directions: [{elevation_deg, azimuth_deg}]. */
+export const radiance = (scene, directions, signal) =>
+  postJson('/v1/radiance', { scene, directions }, signal);
+/** The constituents as curves. */
+export const optics = (scene, signal) => postJson('/v1/optics', scene, signal);
+/** The sun over a place through a day. */
+export const day = (place, signal) => postJson('/v1/day', place, signal);
+/** What each ingredient is worth. */
+export const explain = (scene, signal) => postJson('/v1/explain', scene, signal);
+/** How much the frame of `a` differs from that of `b`, in figures or as a picture. */
+export const compare = (a, b, signal) => postJson('/v1/compare', { a, b }, signal);
+export const compareAsPicture = (a, b, signal) =>
+  postPicture('/v1/compare', JSON.stringify({ a, b }), signal);
+
+/** A picture of the person's own (EXR bytes) against the scene, in figures or as a picture. */
+export async function judge(scene, exr, signal) {
+  const answer = await send(`/v1/compare?${toQuery(scene)}`, {
+    method: 'POST', body: exr, signal, headers: { 'Content-Type': 'image/x-exr' } });
+  return readBody(() => answer.json());
+}
+export const judgeAsPicture = (scene, exr, signal) =>
+  postPicture(`/v1/compare?${toQuery(scene)}`, exr, signal, 'image/x-exr');
+/** The scene's air over a picture with distances. */
+export const composite = (scene, exr, signal) =>
+  postPicture(`/v1/composite?${toQuery(scene)}`, exr, signal, 'image/x-exr');
+
+/** Speed against accuracy: `onLine` gets what was charted, then point after point. */
+export async function chart(scene, onLine, signal) {
+  const answer = await post('/v1/chart', scene, signal);
+  await readPieces(() => readLines(answer.body, (text) => {
+    const line = JSON.parse(text);
+    if (line.status) throw new Refused(line, line.status);
+    onLine(line);
+  }));
+}
+
+/** Frames of the scene with each of the patches: `onFrame(blob, facts, place)` from 0 on. */
+export async function stream(scene, frames, onFrame, signal) {
+  const answer = await post('/v1/stream', { scene, frames }, signal);
+  await readPieces(() => readParts(answer.body, async ({ headers, bytes }) => {
+    if (!headers.get('Content-Type')?.startsWith('image/')) {
+      throw new Refused(JSON.parse(new TextDecoder().decode(bytes)), 500);
+    }
+    const place = Number.parseInt(headers.get('Cyanometer-Frame'), 10) - 1;
+    await onFrame(new Blob([bytes], { type: headers.get('Content-Type') }), readFacts(headers), place);
+  }));
 }
 
 /** The address of the same image, for links and thumbnails. */

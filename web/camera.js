@@ -1,8 +1,10 @@
-// Hands on the picture: drag to look, drag the sun, wheel and pinch to zoom, keys to fly.
+// Hands on the picture: drag to look, drag the sun, wheel and pinch to zoom, keys to fly. A press
+// that does not move is a `tap` (detail: {x, y}) of the canvas.
 
 import { angles, direction, fromPixel, toPixel, wrapDegrees } from './projection.js';
 
 const SUN_GRIP_PX = { mouse: 18, touch: 34, pen: 24 };
+const STILL_PX = 5;
 const WIDEST = { perspective: 150, fisheye: 360 };
 const NARROWEST_DEG = 0.1;
 const LOWEST_KM = 0.001;
@@ -14,6 +16,7 @@ const degrees = (value) => Number(value.toFixed(3));
 
 export class Camera {
   #pointers = new Map();
+  #pressed;  // where a single pointer went down, until it moves
   #grip;  // what the hand holds: 'look', 'sun' or 'pinch'
 
   constructor(canvas, state) {
@@ -43,6 +46,7 @@ export class Camera {
     this.canvas.focus({ preventScroll: true });
     this.canvas.setPointerCapture(event.pointerId);
     this.#pointers.set(event.pointerId, this.#spot(event));
+    this.#pressed = this.#pointers.size > 1 ? undefined : this.#spot(event);
     this.#grip = this.#pointers.size > 1 ? 'pinch' : this.#isOnSun(event) ? 'sun' : 'look';
     this.canvas.dataset.grip = this.#grip;
   }
@@ -54,6 +58,9 @@ export class Camera {
       this.canvas.classList.toggle('on-sun', this.#isOnSun(event));
       return;
     }
+    const { x, y } = this.#pressed ?? before;
+    if (this.#pressed && Math.hypot(now.x - x, now.y - y) < STILL_PX) return;
+    this.#pressed = undefined;
     const gap = this.#gap();
     this.#pointers.set(event.pointerId, now);
     if (this.#grip === 'pinch') this.zoom(gap / this.#gap());
@@ -63,6 +70,10 @@ export class Camera {
 
   #up(event) {
     this.#pointers.delete(event.pointerId);
+    if (this.#pressed && event.type === 'pointerup') {
+      this.canvas.dispatchEvent(new CustomEvent('tap', { detail: this.#pressed }));
+    }
+    this.#pressed = undefined;
     this.#grip = this.#pointers.size ? 'look' : undefined;
     if (!this.#grip) delete this.canvas.dataset.grip;
   }

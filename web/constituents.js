@@ -1,8 +1,10 @@
-// What the air is made of: a card for each constituent, with its sliders and a switch.
+// What the air is made of: a card for each constituent, with its sliders, its curves and a switch.
 
+import { curvesOf, Optics } from './curves.js';
 import { h, icon } from './dom.js';
 import { switchBox, words } from './editors.js';
 import { equal, get } from './paths.js';
+import { linkedVisibility, Ties } from './together.js';
 
 const ROOT = 'atmosphere.constituents';
 
@@ -34,11 +36,16 @@ const TEMPLATES = {
 export class Constituents {
   #kept = new Map();  // what was switched off: its card and the patch it had
   #drawn;
+  #live = [];  // curves and linked sliders of the cards
 
   constructor(state, schema, controls) {
     this.state = state;
     this.schema = schema;
     this.controls = controls;
+    this.optics = new Optics(state);
+    this.optics.addEventListener('curves', () => this.#live.forEach((one) => one.refresh()));
+    this.ties = new Ties(state);
+    controls.companions = (path, value) => this.ties.companions(path, value);
     this.list = h('div', { className: 'cards' });
     this.element = h('div', {}, this.list, this.#addMenu());
     this.refresh();
@@ -46,13 +53,21 @@ export class Constituents {
 
   /** Draws the cards again where what there is has changed, not only its numbers. */
   refresh() {
+    this.#look();
     const cards = this.#cards();
     const shape = cards.map(([name, value, on]) => [name, on, value.type, Object.keys(value)]);
     if (equal(shape, this.#drawn)) return;
     this.#drawn = shape;
     const open = new Set([...this.list.querySelectorAll('details[open]')]
       .map((details) => details.parentElement.dataset.name));
+    this.#live = [];
     this.list.replaceChildren(...cards.map((card) => this.#card(...card, open)));
+    this.#live.forEach((one) => one.refresh());
+  }
+
+  // Curves are asked for while a card is open.
+  #look() {
+    if (this.list.querySelector('details[open]')) this.optics.refresh();
   }
 
   // [name, value, on]: those of the scene, and those that were switched off.
@@ -74,7 +89,7 @@ export class Constituents {
     const box = switchBox(`${words(name)} on`, (checked) => this.#switch(name, value, checked));
     box.checked = on;
     const added = !get(this.state.base(), path);
-    const details = h('details', { open: on && open.has(name) },
+    const details = h('details', { open: on && open.has(name), ontoggle: () => this.#look() },
       h('summary', {}, h('span', { className: 'dot' }), h('span', { className: 'name' }, words(name)),
         h('span', { className: 'quiet', title: type?.title ?? '' }, words(value.type))),
       h('div', { className: 'body' }, on && type ? this.#fields(path, value, type) : null,
@@ -96,7 +111,22 @@ export class Constituents {
     return [
       ways.length > 1 && current ? this.#wayChoice(path, ways, current, members) : null,
       ...shown.map((name) => this.controls.make(`${path}.${name}`, members[name])),
+      ...this.#together(path, value),
+      this.#keep(curvesOf(this.optics, path.slice(ROOT.length + 1))),
     ];
+  }
+
+  #together(path, value) {
+    const name = path.slice(ROOT.length + 1);
+    if ('optical_depth' in value) {
+      return [this.#keep(linkedVisibility(`${path}.optical_depth`, this.state, this.optics, name))];
+    }
+    const warm = 'temperature_k' in value && value.profile?.type === 'exponential';
+    return warm ? [this.ties.row(path)] : [];
+  }
+  #keep(live) {
+    this.#live.push(live);
+    return live.element;
   }
 
   // The document takes one of the ways at a time: choosing one lets go of the others.

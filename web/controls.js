@@ -12,11 +12,13 @@ export class Controls {
   constructor(state, schema) {
     this.state = state;
     this.schema = schema;
+    this.companions = () => ({});  // edits that an edit of a path brings along
   }
 
   /** A control for the member at `path`, described by `node`. */
   make(path, node) {
-    const control = new Control(this.state, this.schema, path, this.schema.follow(node));
+    const set = (value) => this.state.edit({ [path]: value, ...this.companions(path, value) });
+    const control = new Control(this.state, this.schema, path, this.schema.follow(node), set);
     this.#all.add(control);
     return control.element;
   }
@@ -43,7 +45,7 @@ export class Controls {
 }
 
 class Control {
-  constructor(state, schema, path, node) {
+  constructor(state, schema, path, node, set) {
     this.state = state;
     this.path = path;
     const id = `control-${++count}`;
@@ -57,7 +59,7 @@ class Control {
     this.editor = editor(schema, node, {
       label: title,
       get: () => state.value(path) ?? node.default,
-      set: (value) => state.edit({ [path]: value }),
+      set,
       complain: (message) => this.complain(message),
     });
     this.element = h('div', { className: 'control', 'data-path': path },

@@ -14,17 +14,18 @@ export function h(tag, members = {}, ...children) {
   return element;
 }
 
-/** An icon of the page's own set, drawn as lines in a 24 x 24 box. */
-export function icon(name) {
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-  svg.setAttribute('viewBox', '0 0 24 24');
-  svg.setAttribute('class', 'icon');
-  svg.setAttribute('aria-hidden', 'true');
-  path.setAttribute('d', ICONS[name]);
-  svg.append(path);
-  return svg;
+/** An SVG element, its members all attributes: `svg('line', {x1: 0, class: 'grid'})`. */
+export function svg(tag, attributes = {}, ...children) {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
 }
+
+/** An icon of the page's own set, drawn as lines in a 24 x 24 box. */
+export const icon = (name) =>
+  svg('svg', { viewBox: '0 0 24 24', class: 'icon', 'aria-hidden': 'true' },
+      svg('path', { d: ICONS[name] }));
 
 const ICONS = {
   undo: 'M9 14 4 9l5-5M4 9h10.5a5.5 5.5 0 0 1 0 11H11',
@@ -34,6 +35,9 @@ const ICONS = {
   sliders: 'M4 7h9M19 7h1M4 17h1M11 17h9M16 4.5v5M8 14.5v5',
   reset: 'M4 4v6h6M4.6 10A8 8 0 1 1 4 14',
   info: 'M12 11v6M12 7.5v.1M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18',
+  play: 'M8 5.5v13l10.500-6.500Z',
+  stop: 'M7 7h10v10H7Z',
+  pin: 'M9 4h6l-.8 6.500 3.300 3.500h-11l3.300-3.500ZM12 14v6',
   remove: 'M5 7h14M10 11v6M14 11v6M6.5 7l1 13h9l1-13M9 7V4h6v3',
 };
 

@@ -4,6 +4,7 @@
 
 import { h } from './dom.js';
 import { format, parse, Scale, unitText } from './numbers.js';
+import { spectrumCurve } from './spectrum.js';
 
 const MOST_SLIDERS = 8;  // longer lists are edited as text
 
@@ -20,9 +21,14 @@ export function editor(schema, node, binding) {
   if (form.type === 'boolean') return toggle(binding);
   if (form.type === 'number' || form.type === 'integer') return number(form, binding);
   if (form.type === 'array') return array(schema, form, binding);
+  if (isSampled(form)) return spectrumCurve(valueNode(form), binding);
   if (form.type === 'object') return members(schema, form, binding);
   return text(binding);
 }
+
+const isSampled = (form) => form.properties?.wavelengths_nm && form.properties?.values;
+const valueNode = (form) => ({ 'x-slider': form['x-slider'], 'x-unit': form['x-unit'], minimum: form.minimum,
+                               maximum: form.maximum, type: 'number' });
 
 /** A slider with a number beside it. */
 export function number(node, binding) {
@@ -186,7 +192,7 @@ function union(schema, forms, binding) {
   const select = h('select', {
     className: 'form-choice', 'aria-label': `${binding.label}: form`,
     onchange: () => binding.set(schema.initial(forms[select.selectedIndex], binding.get())),
-  }, forms.map((form) => h('option', {}, formTitle(form))));
+  }, forms.map((form) => h('option', {}, formTitle(form, schema))));
   return {
     element: h('div', { className: 'union' }, select, place),
     refresh() {
@@ -205,9 +211,10 @@ function union(schema, forms, binding) {
 }
 
 const FORM_TITLES = { number: 'Number', integer: 'Number', array: 'List', string: 'Name',
-                      blackbody_k: 'Black body', wavelengths_nm: 'Table' };
+                      blackbody_k: 'Black body', wavelengths_nm: 'Curve' };
 
-function formTitle(form) {
+function formTitle(form, schema) {
+  if (form.type === 'array' && !form['x-order'] && schema.count() === 3) return 'Red, green, blue';
   if ('const' in form) return words(String(form.const));
   const tag = form.properties?.type?.const;
   if (tag) return words(tag);
@@ -241,7 +248,8 @@ function text(binding) {
 }
 
 const SPELLED = { cie: 'CIE', d65: 'D65', aces: 'ACES', agx: 'AgX', co2: 'CO₂', n2: 'N₂', h2: 'H₂',
-                  he: 'He', ch4: 'CH₄', mie: 'Mie' };
+                  he: 'He', ch4: 'CH₄', mie: 'Mie',
+                  cornette_shanks: 'Cornette–Shanks', henyey_greenstein: 'Henyey–Greenstein' };
 
 /** A name of the document as a person would write it. */
 export function words(name) {

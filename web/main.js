@@ -2,18 +2,25 @@
 
 import { inWords, list, plan } from './api.js';
 import { Camera } from './camera.js';
+import { ChartBlock } from './chart.js';
+import { Compare } from './compare.js';
 import { Constituents } from './constituents.js';
 import { Controls } from './controls.js';
+import { Day } from './day.js';
+import { explainBlock } from './explain.js';
 import { bindFacts } from './facts.js';
 import { bindAddress, readLink } from './link.js';
 import { MethodOptions } from './methods.js';
+import { Overlay } from './overlay.js';
+import { OwnPicture } from './own.js';
 import { bindPanel, buildFolds } from './panel.js';
 import { fromPointer } from './paths.js';
 import { presetGallery } from './presets.js';
+import { Probe } from './probe.js';
 import { untilAnswered } from './retry.js';
+import { savePage } from './save.js';
 import { Schema } from './schema.js';
 import { State } from './state.js';
-import { takeAway } from './take.js';
 import { View } from './view.js';
 
 const byId = (id) => document.getElementById(id);
@@ -22,6 +29,8 @@ const state = new State(readLink(location.hash));
 const view = new View(byId('picture'), () => state.document());
 const camera = new Camera(byId('picture'), state);
 const panel = bindPanel();
+const probe = new Probe({ state, view, panel, mark: byId('mark') });
+byId('probe').append(probe.element);
 let controls;
 let methodOptions;
 
@@ -113,6 +122,7 @@ document.addEventListener('keydown', (event) => {
   const onPicture = event.target === byId('picture') || event.target === document.body;
   if (event.key === '?') byId('help').showModal();
   else if (event.key.toLowerCase() === 'c' && !event.target.closest('select')) panel.toggle();
+  else if (onPicture && event.key.toLowerCase() === 'p') probe.middle();
   else if (onPicture && camera.key(event)) event.preventDefault();
 });
 
@@ -136,10 +146,13 @@ async function start() {
   controls = new Controls(state, schema);
   const constituents = new Constituents(state, schema, controls);
   methodOptions = new MethodOptions(methods, state, controls);
+  const dayStrip = new Day({ state, view, idle, fold: () => byId('adjust').querySelector('[data-group=day]') });
   byId('adjust').replaceChildren(...buildFolds(schema, controls, MethodOptions.paths(methods), {
-    atmosphere: [constituents.element], method: [methodOptions.element] }));
+    atmosphere: [constituents.element], method: [methodOptions.element], day: [dayStrip.element] }));
+  byId('adjust').querySelector('[data-group=day]').addEventListener('toggle', () => dayStrip.opened());
   byId('skies').replaceChildren(presetGallery(presets, state, idle));
-  byId('take').replaceChildren(...takeAway(state, view));
+  byId('compare').replaceChildren(...comparePage(methods));
+  byId('save').replaceChildren(...savePage(state, view));
   for (const event of ['settle', 'resolve']) {
     state.addEventListener(event, () => {
       constituents.refresh();
@@ -149,6 +162,14 @@ async function start() {
   }
   constituents.refresh();
   refreshControls();
+}
+
+function comparePage(methods) {
+  const overlay = new Overlay(byId('overlay'));
+  const compare = new Compare({ state, view, overlay, methods, handle: byId('wipe'),
+                                otherCanvas: byId('other') });
+  const own = new OwnPicture({ state, panel, overlay, compare, curtain: byId('drop') });
+  return [compare.element, new ChartBlock(state, methods).element, explainBlock(state, view), own.element];
 }
 
 start().catch((error) => say(inWords(error), 'refused'));

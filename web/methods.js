@@ -52,7 +52,9 @@ export class MethodOptions {
   /** Says what the plan says. */
   explain(plan) {
     const waves = plan.wavelengths_nm?.length;
-    this.why.textContent = [plan.why, waves ? `Wavelengths computed: ${waves}` +
+    const options = Object.entries(plan.options ?? {})
+      .map(([name, value]) => `${name.replaceAll('_', ' ')} ${format(value)}`).join(', ');
+    this.why.textContent = [plan.why, options ? `Options: ${options}.` : '', waves ? `Wavelengths computed: ${waves}` +
       (waves <= 8 ? ` (${plan.wavelengths_nm.map(format).join(', ')} nm).` : '.') : '']
       .filter(Boolean).join(' ');
   }

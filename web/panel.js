@@ -4,7 +4,10 @@ import { h, icon } from './dom.js';
 
 const byId = (id) => document.getElementById(id);
 
-/** Tabs and the fold; returns `toggle()`. */
+/**
+ * Tabs and the fold. `select(id)` opens a tab and `showing(id)` says whether it is seen; elements
+ * of tabs get `shown` and `hidden` events.
+ */
 export function bindPanel() {
   for (const [id, name] of [['undo', 'undo'], ['redo', 'redo'], ['show-help', 'help'],
                             ['close', 'close'], ['open', 'sliders']]) {
@@ -16,7 +19,10 @@ export function bindPanel() {
       const chosen = other === tab;
       other.setAttribute('aria-selected', String(chosen));
       other.tabIndex = chosen ? 0 : -1;
-      byId(other.getAttribute('aria-controls')).hidden = !chosen;
+      const page = byId(other.getAttribute('aria-controls'));
+      if (page.hidden === !chosen) continue;
+      page.hidden = !chosen;
+      page.dispatchEvent(new Event(chosen ? 'shown' : 'hidden'));
     }
   };
   tabs.forEach((tab, i) => {
@@ -40,19 +46,25 @@ export function bindPanel() {
   };
   byId('close').addEventListener('click', () => show(false));
   byId('open').addEventListener('click', () => show(true));
-  return { toggle: () => show(byId('panel').hidden) };
+  return {
+    toggle: () => show(byId('panel').hidden),
+    select: (id) => select(byId(`tab-${id}`)),
+    showing: (id) => !byId('panel').hidden && !byId(id).hidden,
+  };
 }
 
 // The groups as people think; the constituents' own three share one fold with their cards.
 const GROUPS = [
-  ['sun', 'Sun'], ['atmosphere', 'Air, haze and ozone'], ['planet', 'Planet'], ['camera', 'Camera'],
+  ['sun', 'Sun'], ['day', 'Time and place'], ['atmosphere', 'Air, haze and ozone'], ['planet', 'Planet'], ['camera', 'Camera'],
   ['light', 'Light'], ['picture', 'Picture'], ['method', 'Method'],
 ];
 const OPEN_AT_FIRST = new Set(['sun', 'atmosphere']);
 const FOLD_OF_GROUP = { air: 'atmosphere', haze: 'atmosphere', ozone: 'atmosphere' };
 
-// The picture's size and file belong to the download, the method's options to the method.
-const ELSEWHERE = /^(image\.(width|height|format|channels|layers)|atmosphere\.constituents)$/;
+// The picture's size and file belong to the download, the method's options to the method, and a
+// place and a time to the strip of the day.
+const ELSEWHERE =
+  /^(image\.(width|height|format|channels|layers)|atmosphere\.constituents|sun\.place)$/;
 
 /** Builds the folds. `extra` maps a fold's name to elements that follow its controls. */
 export function buildFolds(schema, controls, methodOptions, extra) {

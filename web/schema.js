@@ -15,7 +15,7 @@ const LAST = ['phase', 'profile', 'disc_samples', 'distance_km', 'place'];
 const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) - FIRST.length
                                              : LAST.indexOf(name) + 1);
 
-const USUAL_PRIMARIES_NM = [680, 550, 440];
+export const USUAL_PRIMARIES_NM = [680, 550, 440];
 
 export class Schema {
   /** `count()` is how many values a list needs that has one for each wavelength. */

@@ -5,7 +5,7 @@
 // more is aborted, but a small one is let come home if it is nearly there: otherwise a hand that
 // never stops would never see one.
 //
-// Events: `frame` (detail: facts), `refused` and `waiting` (detail: the error), `answered`.
+// Events: `frame` (detail: facts), `refused` and `waiting` (detail: the error).
 
 import { render } from './api.js';
 import { isPassing, waitMs } from './retry.js';
@@ -35,6 +35,10 @@ export class View extends EventTarget {
   #changedAt = -Infinity;
   #movingPixels = 40000;
   #frameTimes = [];
+  #held = false;
+
+  /** Facts of the frame on screen. */
+  facts;
 
   /** `scene()` is the document that is wanted now. */
   constructor(canvas, scene) {
@@ -48,6 +52,7 @@ export class View extends EventTarget {
 
   /** The scene or the window has changed. */
   change() {
+    if (this.#held) return;
     this.#version++;
     this.#changedAt = performance.now();
     this.canvas.dataset.state = 'rough';
@@ -58,9 +63,6 @@ export class View extends EventTarget {
   get settled() {
     return this.#shown.version === this.#version && this.#shown.pixels >= this.#fullPixels() &&
       !this.#flight;
-  }
-  get inFlight() {
-    return this.#flight !== undefined;
   }
   get framesPerSecond() {
     const now = performance.now();
@@ -77,6 +79,36 @@ export class View extends EventTarget {
   }
   shape() {
     return FIXED_SHAPES[this.#projection()] ?? this.canvas.clientWidth / this.canvas.clientHeight;
+  }
+
+  /** Where the picture is on its canvas, in CSS pixels: panoramas have margins. */
+  pictureBox() {
+    const { clientWidth, clientHeight } = this.canvas;
+    const shape = this.shape();
+    const width = Math.min(clientWidth, clientHeight * shape);
+    const height = width / shape;
+    return { left: (clientWidth - width) / 2, top: (clientHeight - height) / 2, width, height };
+  }
+
+  /** The scene as it is asked for while it moves, at the size that keeps up. */
+  movingScene() {
+    return this.#request({ ...this.#sizeUpTo(this.#movingPixels), moving: true });
+  }
+
+  /** Asks for nothing until `release()`: frames come from elsewhere, by `present`. */
+  hold() {
+    this.#held = true;
+    this.#flight?.controller.abort();
+    this.#flight = undefined;
+    clearTimeout(this.#timer);
+  }
+  release() {
+    this.#held = false;
+    this.change();
+  }
+  present(bitmap, facts) {
+    this.#draw(bitmap);
+    this.#tell({ ...facts, width: bitmap.width, height: bitmap.height, moving: true });
   }
 
   #fullPixels() {
@@ -107,7 +139,7 @@ export class View extends EventTarget {
   #pump() {
     clearTimeout(this.#timer);
     const now = performance.now();
-    if (!this.canvas.clientWidth || !this.canvas.clientHeight) return;
+    if (this.#held || !this.canvas.clientWidth || !this.canvas.clientHeight) return;
     if (now < this.#retryAt) return this.#pumpIn(this.#retryAt - now);
     if (this.#flight && !this.#mayAbandon(now)) return;
     const size = this.#nextSize(now);
@@ -167,16 +199,20 @@ export class View extends EventTarget {
     this.canvas.classList.toggle('filling', !this.hasOwnShape());
   }
 
-  async #fly({ width, height, moving }) {
+  #request({ width, height, moving }) {
     const scene = this.scene();
+    const { channels, layers, ...image } = scene.image ?? {};
+    return { ...scene, method: withinTime(scene.method, moving),
+             image: { ...image, width, height, format: 'png' } };
+  }
+
+  async #fly(size) {
+    const { width, height, moving } = size;
     const flight = { version: this.#version, moving, startedAt: performance.now(),
                      controller: new AbortController() };
     this.#flight = flight;
-    const { channels, layers, ...image } = scene.image ?? {};
     try {
-      const { blob, facts } = await render(
-        { ...scene, method: withinTime(scene.method, moving),
-          image: { ...image, width, height, format: 'png' } }, flight.controller.signal);
+      const { blob, facts } = await render(this.#request(size), flight.controller.signal);
       const bitmap = await createImageBitmap(blob);
       if (this.#flight !== flight) return bitmap.close();
       this.#show(flight, bitmap, { ...facts, width, height });
@@ -194,14 +230,20 @@ export class View extends EventTarget {
     this.#attempts = 0;
     this.#shown = { version: flight.version, pixels: facts.width * facts.height };
     if (flight.moving) this.#learn(now - flight.startedAt);
-    this.#frameTimes.push(now);
+    this.#draw(bitmap);
+    if (this.settled) this.canvas.dataset.state = 'sharp';
+    this.#tell({ ...facts, totalMs: now - flight.startedAt, moving: flight.moving });
+  }
+  #draw(bitmap) {
+    this.#frameTimes.push(performance.now());
     this.#fit();
     this.canvas.width = bitmap.width;
     this.canvas.height = bitmap.height;
     this.context.transferFromImageBitmap(bitmap);
-    if (this.settled) this.canvas.dataset.state = 'sharp';
-    this.dispatchEvent(new CustomEvent('frame', {
-      detail: { ...facts, totalMs: now - flight.startedAt, moving: flight.moving } }));
+  }
+  #tell(facts) {
+    this.facts = facts;
+    this.dispatchEvent(new CustomEvent('frame', { detail: facts }));
   }
 
   #fail(flight, error) {

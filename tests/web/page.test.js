@@ -5,39 +5,18 @@ import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
-import { after, before, describe, test } from 'node:test';
+import { describe } from 'node:test';
 import { promisify } from 'node:util';
 
-import { Daemon, openBrowser, Person, SIZES } from './person.js';
+import { SIZES } from './person.js';
+import { visits } from './visits.js';
 
 const run = promisify(execFile);
 const PNG = '89504e47';
 const EXR = '762f3101';
 const startOf = (bytes) => bytes.subarray(0, 4).toString('hex');
 
-let daemon;
-let browser;
-before(async () => {
-  daemon = await Daemon.start();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await daemon?.stop();
-});
-
-/** A test by somebody who has just arrived; the console must stay silent. */
-function visit(size, sentence, steps, options) {
-  test(`${size}: ${sentence}`, async () => {
-    const person = await Person.arrive(browser, daemon, size, options);
-    try {
-      await steps(person, person.page);
-      assert.deepEqual(person.complaints, []);
-    } finally {
-      await person.leave();
-    }
-  });
-}
+const visit = visits();
 
 for (const size of Object.keys(SIZES)) {
   describe(size, () => {
@@ -54,7 +33,7 @@ for (const size of Object.keys(SIZES)) {
     });
 
     visit(size, 'every number of the schema has a slider, in a group', async (person, page) => {
-      const schema = await (await fetch(`${daemon.address}v1/schema`)).json();
+      const schema = await (await fetch(`${new URL(page.url()).origin}/v1/schema`)).json();
       for (const [section, members] of Object.entries(schema.properties)) {
         for (const [name, member] of Object.entries(members.properties ?? {})) {
           if (!member['x-slider'] || /^(width|height|.*_samples|seed)$/.test(name)) continue;
@@ -111,11 +90,11 @@ for (const size of Object.keys(SIZES)) {
         assert.ok((await card.locator('input[type=range]').count()) >= 2);
         await person.photograph('card');
         const first = await person.look();
-        await card.getByRole('switch').first().click();
+        await card.getByRole('switch', { name: 'Air on' }).click();
         assert.equal((await person.scene()).atmosphere.constituents.air, null);
         await person.rest();
         assert.notEqual(await person.look(), first);
-        await page.locator('.card[data-name=air]').getByRole('switch').click();
+        await page.locator('.card[data-name=air]').getByRole('switch', { name: 'Air on' }).click();
         await person.rest();
         assert.equal(await person.look(), first);
         await page.getByRole('button', { name: 'Dust', exact: true }).click();
@@ -222,8 +201,8 @@ for (const size of Object.keys(SIZES)) {
     });
 
     visit(size, 'JSON, link, curl and Python make the same frame', async (person, page) => {
-      await person.tab('Take away');
-      await person.photograph('take');
+      await person.tab('Save');
+      await person.photograph('save');
       const copied = async (kind) => {
         await page.getByRole('button', { name: `Copy ${kind}` }).click();
         return page.evaluate(() => navigator.clipboard.readText());
@@ -245,7 +224,7 @@ for (const size of Object.keys(SIZES)) {
     }, { hash: '#preset=earth&sun.elevation_deg=5&image.tone_map=aces' });
 
     visit(size, 'PNG and EXR are downloaded at a chosen size', async (person, page) => {
-      await person.tab('Take away');
+      await person.tab('Save');
       await page.getByLabel('Width', { exact: true }).fill('320');
       await page.getByLabel('Height', { exact: true }).fill('100');
       for (const [format, start] of [['png', PNG], ['exr', EXR]]) {
@@ -260,6 +239,44 @@ for (const size of Object.keys(SIZES)) {
       }
     });
 
+    visit(size, 'an EXR has its layers apart, an environment map is a whole sphere', async (person, page) => {
+      await person.tab('Save');
+      const save = async () => {
+        const [download] = await Promise.all([
+          page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
+        return readFile(await download.path());
+      };
+      await page.getByLabel('Width', { exact: true }).fill('64');
+      await page.getByLabel('As', { exact: true }).selectOption('exr');
+      await page.getByLabel('Light of the air').check();
+      await page.getByLabel('Transmittance').check();
+      const channels = (await save()).subarray(0, 600).toString('latin1');
+      for (const name of ['inscatter.R', 'transmittance.B']) assert.ok(channels.includes(name), name);
+      assert.ok(!channels.includes('ground.R'));
+      await page.getByLabel('As', { exact: true }).selectOption('sphere_hdr');
+      assert.equal(await page.getByLabel('Height', { exact: true }).inputValue(), '32');
+      const sphere = (await save()).toString('latin1');
+      assert.match(sphere, /^#\?RADIANCE/);
+      assert.match(sphere, /-Y 32 \+X 64/);
+    });
+
+    visit(size, 'a slider dragged for ten seconds leaves no request and no error behind', async (person, page) => {
+      const slider = (await person.find('sun.elevation_deg')).locator('input[type=range]');
+      const box = await slider.boundingBox();
+      const y = box.y + box.height / 2;
+      await page.mouse.move(box.x + box.width / 2, y);
+      await page.mouse.down();
+      const ends = Date.now() + 10000;
+      for (let i = 0; Date.now() < ends; ++i) {
+        await page.mouse.move(box.x + box.width * (0.5 + 0.4 * Math.sin(i / 30)), y);
+        await page.waitForTimeout(16);
+      }
+      await page.mouse.up();
+      await person.rest();
+      const { flying, failed, most } = await person.requests();
+      assert.deepEqual({ flying, failed, most }, { flying: 0, failed: 0, most: 1 });
+    });
+
     visit(size, 'what is not a number is refused where it was typed', async (person, page) => {
       await person.type('sun.elevation_deg', 'high');
       assert.match(await person.control('sun.elevation_deg').locator('.problem').innerText(), /number/);
@@ -269,7 +286,7 @@ for (const size of Object.keys(SIZES)) {
       visit(size, `it is accessible in the ${colorScheme}`, async (person, page) => {
         const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
         await page.evaluate(axe);
-        for (const tab of ['Skies', 'Adjust', 'Take away']) {
+        for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) {
           await person.tab(tab);
           const { violations } = await page.evaluate(() => window.axe.run());
           assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map((n) => n.html)]), [], tab);

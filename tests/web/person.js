@@ -40,7 +40,7 @@ export class Daemon {
     return `http://127.0.0.1:${this.port}/`;
   }
   async resume() {
-    this.process = spawn(binary, ['serve', '--listen', `127.0.0.1:${this.port}`],
+    this.process = spawn(binary, ['serve', '--log-level', 'warning', '--listen', `127.0.0.1:${this.port}`],
                          { stdio: ['ignore', 'ignore', 'inherit'] });
     for (let attempt = 0; attempt < 300; ++attempt) {
       const ready = await fetch(`${this.address}readyz`).catch(() => undefined);
@@ -173,6 +173,13 @@ export class Person {
   async look() {
     const address = await this.page.locator('#picture').evaluate((canvas) => canvas.toDataURL());
     return createHash('sha256').update(address).digest('hex');
+  }
+  /** A fingerprint of what is on the window around a spot of the picture, {x, y} from 0 to 1. */
+  async patch({ x, y }) {
+    const box = await this.page.locator('#picture').boundingBox();
+    const clip = { x: Math.round(box.x + x * box.width) - 4, y: Math.round(box.y + y * box.height) - 4,
+                   width: 8, height: 8 };
+    return createHash('sha256').update(await this.page.screenshot({ clip })).digest('hex');
   }
   async photograph(name) {
     await mkdir(screenshots, { recursive: true });

@@ -5,4 +5,4 @@ set -euo pipefail
 cd "$(dirname "$0")"
 if [[ -z ${CYANOMETER_BINARY-} && -x ../../cyanometer ]]; then ../../cyanometer devices >/dev/null; fi
 if [[ ! -d node_modules ]]; then npm ci --no-audit --no-fund >&2; fi
-exec node --test --test-concurrency=1 --test-reporter=tap page.test.js troubles.test.js
+exec node --test --test-concurrency=1 --test-reporter=tap *.test.js

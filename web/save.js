@@ -1,25 +1,40 @@
-// Taking a scene away: as a file of a chosen size, as a link, as JSON, curl or Python.
+// Saving a scene: as a file of a chosen size, as a link, as JSON, curl or Python.
 
 import { inWords, render } from './api.js';
 import { copyText, h, saveFile } from './dom.js';
 import { texts } from './link.js';
 import { untilAnswered } from './retry.js';
 
+// `image` is what the format asks of the scene's image; `camera`, where it is not the one on screen.
+const SPHERE = { projection: 'equirectangular', pitch_deg: 0, roll_deg: 0, fov_deg: null };
 const FORMATS = {
-  png: 'PNG, to look at', jpeg: 'JPEG, small', exr: 'OpenEXR, linear light', hdr: 'Radiance HDR',
-  npy: 'NumPy array',
+  png: { title: 'PNG, to look at', image: { format: 'png' } },
+  jpeg: { title: 'JPEG, small', image: { format: 'jpeg' } },
+  exr: { title: 'OpenEXR, linear light', image: { format: 'exr' } },
+  hdr: { title: 'Radiance HDR', image: { format: 'hdr' } },
+  npy: { title: 'NumPy array', image: { format: 'npy' } },
+  sphere_hdr: { title: 'Environment map, HDR', image: { format: 'hdr' }, camera: SPHERE },
+  sphere_exr: { title: 'Environment map, EXR', image: { format: 'exr' }, camera: SPHERE },
 };
+const LAYERS = [['inscatter', 'Light of the air'], ['ground', 'Ground'], ['sun', 'Sun and stars'],
+                ['transmittance', 'Transmittance']];
 const EXTENSIONS = { jpeg: 'jpg' };
-const WIDTHS = [1280, 1920, 2560, 3840];
+const WIDTHS = [1280, 1920, 3840];
 
-/** The page of the third tab. `view` knows the window's size and shape. */
-export function takeAway(state, view) {
+/** The page of the last tab. `view` knows the window's size and shape. */
+export function savePage(state, view) {
   return [downloads(state, view), ...Object.keys(texts).map((kind) => snippet(kind, state))];
 }
 
 function downloads(state, view) {
   const format = h('select', { id: 'format' },
-                   Object.entries(FORMATS).map(([value, title]) => h('option', { value }, title)));
+                   Object.entries(FORMATS).map(([value, { title }]) => h('option', { value }, title)));
+  const boxes = LAYERS.map(([name, title]) => [name, h('input', { type: 'checkbox' }), title]);
+  const spectral = h('input', { type: 'checkbox' });
+  const layers = h('div', { className: 'checklist', role: 'group', 'aria-label': 'Layers apart' },
+    boxes.map(([, box, title]) => h('label', {}, box, title)),
+    h('label', { title: 'One channel a wavelength, in radiance units' }, spectral, 'Every wavelength'));
+  const chosen = () => FORMATS[format.value];
   const width = h('input', { type: 'number', id: 'width', min: 1, max: 16384, step: 1, value: 1920 });
   const height = h('input', { type: 'number', id: 'height', min: 1, max: 16384 * 6, step: 1 });
   const say = h('p', { className: 'help', role: 'status' });
@@ -31,10 +46,22 @@ function downloads(state, view) {
       } }, title)));
   const pixels = (field) => Math.max(1, Math.round(field.valueAsNumber || 1));
   const size = () => ({ width: pixels(width), height: pixels(height) });
+  const shape = () => (chosen().camera ? 2 : view.shape());
   // The height follows the window's shape until somebody types one; panoramas have their own.
   const showHeight = () => {
-    height.disabled = view.hasOwnShape();
-    height.value = Math.max(1, Math.round(pixels(width) / view.shape()));
+    height.value = Math.max(1, Math.round(pixels(width) / shape()));
+  };
+  const showFormat = () => {
+    const hadOwnShape = height.disabled;
+    height.disabled = view.hasOwnShape() || chosen().camera !== undefined;
+    if (height.disabled || hadOwnShape) showHeight();
+    layers.hidden = chosen().image.format !== 'exr';
+  };
+  // What of an EXR's layers and channels is asked for.
+  const parts = () => {
+    if (layers.hidden) return {};
+    const apart = boxes.filter(([, box]) => box.checked).map(([name]) => name);
+    return { ...(apart.length ? { layers: apart } : {}), ...(spectral.checked ? { channels: 'spectral' } : {}) };
   };
   const button = h('button', { type: 'submit', className: 'primary' }, 'Download');
   const save = async (event) => {
@@ -42,7 +69,8 @@ function downloads(state, view) {
     button.disabled = true;
     say.textContent = 'Rendering…';
     try {
-      await download(state, { ...size(), format: format.value }, (error) => {
+      const { image, camera } = chosen();
+      await download(state, { ...size(), ...image, ...parts() }, camera, (error) => {
         say.textContent = inWords(error);
       });
       say.textContent = 'Saved.';
@@ -53,22 +81,25 @@ function downloads(state, view) {
     }
   };
   width.addEventListener('input', showHeight);
-  state.addEventListener('change', () => { if (view.hasOwnShape() || height.disabled) showHeight(); });
+  format.addEventListener('change', showFormat);
+  state.addEventListener('change', showFormat);
   showHeight();
+  showFormat();
   return h('form', { className: 'download', onsubmit: save },
     h('h2', {}, 'Picture'),
-    h('div', { className: 'row' }, h('label', { for: 'format' }, 'As'), format),
+    h('div', { className: 'row' }, h('label', { for: 'format' }, 'As'), format), layers,
     h('div', { className: 'row' }, h('label', { for: 'width' }, 'Width'),
       width),
     h('div', { className: 'row' }, h('label', { for: 'height' }, 'Height'), height),
     sizes, button, say);
 }
 
-async function download(state, image, onWait) {
+async function download(state, image, camera, onWait) {
   const scene = state.document();
   const { channels, layers, ...look } = scene.image ?? {};
-  const { blob } = await untilAnswered(
-    () => render({ ...scene, image: { ...look, ...image } }), onWait);
+  const asked = { ...scene, image: { ...look, ...image } };
+  if (camera) asked.camera = { ...scene.camera, ...camera };
+  const { blob } = await untilAnswered(() => render(asked), onWait);
   saveFile(blob, `${state.preset}.${EXTENSIONS[image.format] ?? image.format}`);
 }
 

@@ -1,0 +1,162 @@
+// What the air is made of as curves, what moves together, the sun of a place and a time.
+
+import assert from 'node:assert/strict';
+import { describe } from 'node:test';
+
+import { SIZES } from './person.js';
+import { visits } from './visits.js';
+
+const visit = visits();
+
+async function open(page, name) {
+  const card = page.locator(`.card[data-name=${name}]`);
+  await card.locator('summary .name').click();
+  await card.locator('.curves .plot').waitFor();
+  return card;
+}
+const look = (card, name) => card.locator('.segmented').getByRole('button', { name }).click();
+/** The numbers of a line's path. */
+const line = async (card) => (await card.locator('.plot path.line').first().getAttribute('d'))
+  .match(/-?[\d.]+/g).map(Number);
+
+for (const size of Object.keys(SIZES)) {
+  describe(size, () => {
+    visit(size, 'a constituent is drawn against altitude, angle and wavelength', async (person, page) => {
+      const air = await open(page, 'air');
+      const profile = await line(air);
+      assert.ok(profile.at(-1) < profile[1], 'altitude goes up');
+      assert.ok(profile.at(-2) < profile[0], 'and density down');
+      await look(air, 'Spectrum');
+      const spectrum = await line(air);
+      assert.ok(spectrum[1] < spectrum.at(-1), 'blue is scattered more');
+      await look(air, 'Phase');
+      assert.match(await air.locator('.plot').getAttribute('aria-label'), /Phase/);
+      await air.locator('.curves').scrollIntoViewIfNeeded();
+      await person.photograph('phase');
+      const ozone = await open(page, 'ozone');
+      await look(ozone, 'Phase');
+      assert.match(await ozone.locator('.curves').innerText(), /does not scatter/);
+    });
+
+    visit(size, 'the curves follow the sliders', async (person, page) => {
+      const air = await open(page, 'air');
+      const before = await line(air);
+      await person.find('atmosphere.constituents.air.profile');
+      const typed = person.control('atmosphere.constituents.air.profile').locator('.typed').first();
+      await typed.fill('4');
+      await typed.press('Enter');
+      await page.waitForFunction((old) =>
+        document.querySelector('.card[data-name=air] .plot path.line').getAttribute('d').length !== old,
+        (await air.locator('.plot path.line').first().getAttribute('d')).length);
+      assert.notDeepEqual(await line(air), before);
+    });
+
+    visit(size, 'visibility and optical depth move together', async (person, page) => {
+      const card = await open(page, 'aerosol');
+      const visibility = card.locator('.linked .typed');
+      const before = Number(await visibility.inputValue());
+      assert.ok(before > 10 && before < 100, `${before} km`);
+      await visibility.fill(String(before / 2));
+      await visibility.press('Enter');
+      const { optical_depth: depth } = (await person.scene()).atmosphere.constituents.aerosol;
+      assert.ok(Math.abs(depth.power_law.value - 0.2) < 0.002, JSON.stringify(depth));
+      const typed = (await person.find('atmosphere.constituents.aerosol.optical_depth')).locator('.typed').first();
+      await typed.fill('0.4');
+      await typed.press('Enter');
+      await person.rest();
+      assert.ok(Math.abs(Number(await visibility.inputValue()) - before / 4) < 0.02 * before);
+    });
+
+    visit(size, 'temperature and scale height move together when they are tied', async (person, page) => {
+      const card = await open(page, 'air');
+      await person.type('atmosphere.constituents.air.temperature_k', '250');
+      assert.equal((await person.scene()).atmosphere.constituents.air.profile, undefined);
+      await card.getByRole('switch', { name: /temperature and scale height together/i }).click();
+      await person.type('atmosphere.constituents.air.temperature_k', '125');
+      const { profile } = (await person.scene()).atmosphere.constituents.air;
+      assert.deepEqual(profile, { type: 'exponential', scale_height_km: 4 });
+    });
+
+    visit(size, 'a spectrum is edited as red, green and blue', async (person, page) => {
+      const albedo = await person.find('planet.ground_albedo');
+      await albedo.locator('.form-choice').selectOption('Red, green, blue');
+      await person.rest();
+      const green = albedo.locator('.number.green .typed');
+      await green.fill('0.6');
+      await green.press('Enter');
+      await person.rest();
+      const scene = await person.scene();
+      assert.deepEqual(scene.planet.ground_albedo, [0.1, 0.6, 0.1]);
+      assert.equal(scene.spectrum.wavelengths_nm.length, 3);
+      assert.equal(await page.locator('#status').textContent(), '');
+    });
+
+    visit(size, 'a spectrum is edited as a curve of nodes', async (person, page) => {
+      const albedo = await person.find('planet.ground_albedo');
+      await albedo.locator('.form-choice').selectOption('Curve');
+      const node = albedo.locator('.node').nth(1);
+      await node.waitFor();
+      await node.scrollIntoViewIfNeeded();
+      const box = await node.boundingBox();
+      const place = await albedo.locator('.spectrum').boundingBox();
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await page.mouse.move(x + 10, place.y + place.height * 0.5, { steps: 6 });
+      await page.mouse.up();
+      const { wavelengths_nm: wavelengths, values } = (await person.scene()).planet.ground_albedo;
+      assert.ok(wavelengths[1] > 552 && wavelengths[1] < 600, String(wavelengths));
+      assert.ok(values[1] > 0.3 && values[1] < 0.7, String(values));
+      assert.deepEqual([values[0], values[2]], [1, 1]);
+      await albedo.locator('.node').nth(1).focus();
+      await page.keyboard.press('ArrowDown');
+      assert.ok((await person.scene()).planet.ground_albedo.values[1] < values[1]);
+      await albedo.getByRole('button', { name: 'Add a node' }).click();
+      assert.equal((await person.scene()).planet.ground_albedo.values.length, 4);
+      await person.rest();
+      assert.equal(await page.locator('#status').textContent(), '');
+      await person.photograph('curve');
+    });
+
+    visit(size, 'a place and a time set the sun; the strip shows the day from dawn to dusk',
+      async (person, page) => {
+        await page.locator('[data-group=day] summary').click();
+        await page.locator('.strip canvas[data-slices="18"]').waitFor();
+        const colours = await page.locator('.strip canvas').evaluate((canvas) => [0.02, 0.5].map((share) =>
+          [...canvas.getContext('2d').getImageData(share * canvas.width, 10, 1, 1).data].join()));
+        assert.notEqual(colours[0], colours[1], 'dawn is not noon');
+        assert.match(await page.locator('.strip-marks').innerText(), /sunrise \d\d:\d\d.*highest.*sunset/s);
+        const first = await person.look();
+        await page.getByLabel('Place').selectOption('Cape Town');
+        const date = page.getByLabel('Date');
+        await date.fill('2026-12-21');
+        await date.dispatchEvent('change');
+        await person.rest();
+        const { sun } = await person.scene();
+        assert.equal(sun.place.latitude_deg, -33.92);
+        assert.match(sun.place.time, /^2026-12-21T12:00:00\+01:00$/);
+        assert.notEqual(await person.look(), first);
+        const slider = page.getByLabel('Time of day');
+        await slider.focus();
+        await page.keyboard.press('Home');
+        await person.rest();
+        assert.match((await person.scene()).sun.place.time, /^2026-12-21T0[3-4]:/);
+        await page.locator('.strip').scrollIntoViewIfNeeded();
+        await person.photograph('day');
+      });
+
+    visit(size, 'the day plays as a time-lapse', async (person, page) => {
+      await page.locator('[data-group=day] summary').click();
+      await page.locator('.strip canvas[data-slices="18"]').waitFor();
+      const seen = new Set();
+      await page.getByRole('button', { name: 'Play the day' }).click();
+      await page.getByRole('button', { name: 'Stop' }).waitFor();
+      while (seen.size < 4) seen.add(await page.locator('.strip-now').innerText());
+      await page.getByRole('button', { name: 'Stop' }).click();
+      await person.rest();
+      const { time } = (await person.scene()).sun.place;
+      assert.ok((await page.locator('.strip-now').innerText()).startsWith(time.slice(11, 16)));
+      assert.equal(await page.locator('#status').textContent(), '');
+    });
+  });
+}

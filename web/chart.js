@@ -1,0 +1,168 @@
+// Speed against accuracy on the scene that is seen: every method over its settings, point by point
+// as the daemon measures them. A click takes a point's method.
+
+import { chart, inWords } from './api.js';
+import { h, svg } from './dom.js';
+import { words } from './editors.js';
+import { percent } from './figures.js';
+import { format } from './numbers.js';
+import { axes, extent } from './plot.js';
+import { Task } from './task.js';
+
+const HEIGHT = 250;
+const SHAPES = {
+  nishita: 'M-4-4H4V4H-4Z', raymarch: 'M0-5 5 4H-5Z', hillaire: 'M0 5 5-4H-5Z', bruneton: 'M0-5.5 5.5 0 0 5.5-5.5 0Z',
+  moments: 'M-4.5 0A4.5 4.5 0 1 0 4.5 0 4.5 4.5 0 1 0-4.5 0Z', path: 'M-1.5-5h3v3.5H5v3H1.500V5h-3V1.500H-5v-3h3.500Z',
+};
+
+/** The points that none beats in both, fastest first. */
+export function paretoFront(points) {
+  const front = [];
+  for (const point of [...points].sort((a, b) => a.frame_ms - b.frame_ms)) {
+    if (!front.length || point.error < front.at(-1).error) front.push(point);
+  }
+  return front;
+}
+
+export class ChartBlock {
+  #task = new Task();
+  #head;
+  #points = [];
+  #redraw;
+
+  constructor(state, methods) {
+    this.state = state;
+    this.titles = Object.fromEntries(methods.map(({ name, title }) => [name, title ?? words(name)]));
+    this.place = h('div', { className: 'result' });
+    this.words = h('p', { className: 'help', role: 'status' });
+    this.button = h('button', { type: 'button', className: 'chip', onclick: () => this.#press() }, 'Measure');
+    this.element = h('section', { className: 'block', id: 'chart-block' },
+      h('div', { className: 'row' }, h('h2', {}, 'Speed and accuracy'), this.button),
+      h('p', { className: 'help' }, 'Every method on this sky, with its settings. Choose a point to '
+        + 'render by it.'), this.place, this.words);
+    state.addEventListener('change', () => {
+      this.#mark();
+      if (this.#points.length && !this.#task.running) this.place.classList.toggle('stale', this.#isStale());
+    });
+  }
+
+  // All but the method, which is what the points differ in.
+  #scene() {
+    const { method, ...scene } = this.state.document();
+    const orders = method?.scattering_orders;
+    return orders === undefined ? scene : { ...scene, method: { scattering_orders: orders } };
+  }
+  #isStale() {
+    return JSON.stringify(this.#scene()) !== this.measured;
+  }
+
+  async #press() {
+    if (this.#task.running) return this.#task.stop();
+    const scene = this.#scene();
+    this.measured = JSON.stringify(scene);
+    this.#points = [];
+    this.#head = undefined;
+    this.place.classList.remove('stale');
+    this.place.replaceChildren();
+    this.button.textContent = 'Stop';
+    this.words.textContent = 'Computing what the methods are measured against…';
+    try {
+      await this.#task.run((signal) => chart(scene, (line) => this.#take(line), signal),
+                           (error) => { this.words.textContent = inWords(error); });
+      this.#tell();
+    } catch (error) {
+      this.words.textContent = inWords(error);
+    }
+    this.button.textContent = 'Measure';
+  }
+
+  #take(line) {
+    if (line.points !== undefined) [this.#head, this.#points] = [line, []];
+    else if (line.method && !line.failure && line.error > 0) this.#points.push(line);
+    this.#redraw ??= requestAnimationFrame(() => {
+      this.#redraw = undefined;
+      this.#draw();
+      this.#tell();
+    });
+  }
+
+  #tell() {
+    if (!this.#head) {
+      this.words.textContent = '';
+      return;
+    }
+    const { width, height, points } = this.#head;
+    const measured = `${this.#points.length} settings`;
+    this.words.textContent = this.#task.running
+      ? `${measured} of up to ${points} measured…`
+      : `${measured}, frames of ${width} × ${height}. The line joins what nothing else beats.`;
+  }
+
+  #draw() {
+    if (!this.#points.length) return;
+    const focused = document.activeElement?.dataset?.point;
+    const series = [{ points: this.#points.map(({ frame_ms: ms, error }) => [ms, error]) }];
+    const wide = ([low, high]) => [low / 1.6, high * 1.6];
+    const [left, right] = wide(extent(series, 0, 'log'));
+    const [low, high] = wide(extent(series, 1, 'log'));
+    const plot = axes({ label: 'Error against time of a frame', height: HEIGHT,
+      x: { title: 'device time of a frame', unit: 'ms', scale: 'log', low: left, high: right },
+      y: { title: 'error', unit: '%', scale: 'log', low: 100 * low, high: 100 * high } });
+    plot.element.removeAttribute('tabindex');  // the points are what is focused
+    plot.element.setAttribute('role', 'group');
+    const spot = ({ frame_ms: ms, error }) => [plot.x.at(ms), plot.y.at(100 * error)];
+    const front = paretoFront(this.#points);
+    plot.layer.append(svg('path', { class: 'front', d: front.map((point, i) =>
+      `${i ? 'L' : 'M'}${spot(point).map((value) => value.toFixed(1)).join(' ')}`).join('') }));
+    for (const point of this.#points) plot.layer.append(this.#dot(point, spot(point), front.includes(point)));
+    this.place.replaceChildren(plot.element, this.#legend());
+    this.#mark();
+    if (focused) this.place.querySelector(`[data-point="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  #dot(point, [x, y], best) {
+    const name = `${this.titles[point.method]}, ${optionsText(point.options)}: error ${percent(point.error)}, ` +
+      `${format(Number(point.frame_ms.toPrecision(2)))} ms`;
+    const choose = () => this.#choose(point);
+    const dot = svg('g', { class: `point of-${point.method}${best ? ' best' : ''}`, role: 'button', tabindex: 0,
+                           transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
+                           'aria-pressed': 'false', 'aria-label': name,
+                           'data-point': keyOf(point), 'data-method': point.method },
+      svg('title', {}, name), svg('circle', { r: 11, class: 'reach' }),
+      svg('path', { d: SHAPES[point.method] ?? SHAPES.moments }));
+    dot.addEventListener('click', choose);
+    dot.addEventListener('keydown', (event) => {
+      if (event.key !== 'Enter' && event.key !== ' ') return;
+      event.preventDefault();
+      choose();
+    });
+    return dot;
+  }
+
+  #legend() {
+    const present = Object.keys(this.titles).filter((name) => this.#points.some(({ method }) => method === name));
+    return h('ul', { className: 'chart-legend' }, present.map((name) => h('li', {},
+      svg('svg', { viewBox: '-6 -6 12 12', class: `point of-${name}`, 'aria-hidden': 'true' },
+          svg('path', { d: SHAPES[name] ?? SHAPES.moments })), this.titles[name])));
+  }
+
+  #choose(point) {
+    const orders = this.state.value('method.scattering_orders');
+    const kept = typeof orders === 'number' ? { scattering_orders: orders } : {};
+    this.state.edit({ method: { ...kept, name: point.method, ...point.options } });
+    this.words.textContent = `Rendering by ${this.titles[point.method]}: ${optionsText(point.options)}.`;
+  }
+  #mark() {
+    const { name, ...options } = this.state.document().method ?? {};
+    for (const dot of this.place.querySelectorAll('[data-point]')) {
+      dot.setAttribute('aria-pressed', String(dot.dataset.point === keyOf({ method: name, options })));
+    }
+  }
+}
+
+const keyOf = ({ method, options }) => {
+  const { scattering_orders, ...own } = options;
+  return `${method} ${JSON.stringify(Object.entries(own).sort())}`;
+};
+const optionsText = (options) => Object.entries(options)
+  .map(([name, value]) => `${name.replaceAll('_', ' ')} ${format(value)}`).join(', ');

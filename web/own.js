@@ -1,0 +1,135 @@
+// A picture of the person's own: an EXR, judged against the scene that is seen; with distances (Z),
+// the scene's air laid over it.
+
+import { composite, inWords, judge, judgeAsPicture } from './api.js';
+import { h } from './dom.js';
+import { readExrHead } from './exr.js';
+import { figuresTable } from './figures.js';
+import { segmented } from './segmented.js';
+import { Task } from './task.js';
+
+export class OwnPicture {
+  #task = new Task();
+  #file;  // { name, bytes, width, height, channels }
+
+  constructor({ state, panel, overlay, compare, curtain }) {
+    Object.assign(this, { state, panel, overlay, compare });
+    this.input = h('input', { type: 'file', accept: '.exr,image/x-exr', id: 'own-file', className: 'unseen',
+                              onchange: () => this.#take(this.input.files[0]) });
+    this.modes = segmented('Shown as', [['figures', 'Figures'], ['error', 'Error picture'],
+                                        ['air', 'Air over it']], () => this.#show());
+    this.modes.element.hidden = true;
+    this.place = h('div', { className: 'result', 'aria-live': 'polite' });
+    this.element = h('section', { className: 'block', id: 'own-block' },
+      h('div', { className: 'row' }, h('h2', {}, 'Your own picture'),
+        h('label', { className: 'chip', for: 'own-file' }, 'Choose an EXR')),
+      this.input,
+      h('p', { className: 'help' }, 'Or drop one anywhere: linear R, G, B of this view are judged against '
+        + 'the converged sky; with Z, km along each ray, the air is laid over it.'),
+      this.modes.element, this.place);
+    this.#bindDrop(curtain);
+    state.addEventListener('change', () => {
+      this.#task.stop();
+      if (!this.#file) return;
+      this.place.classList.add('stale');
+      if (this.modes.value !== 'figures') overlay.hide();
+    });
+    state.addEventListener('settle', () => {
+      if (this.#file && this.place.classList.contains('stale')) this.#show();
+    });
+  }
+
+  #bindDrop(curtain) {
+    const carriesFile = (event) => event.dataTransfer?.types.includes('Files');
+    document.addEventListener('dragover', (event) => {
+      if (!carriesFile(event)) return;
+      event.preventDefault();
+      curtain.hidden = false;
+    });
+    document.addEventListener('dragleave', (event) => {
+      if (!event.relatedTarget) curtain.hidden = true;
+    });
+    document.addEventListener('drop', (event) => {
+      if (!carriesFile(event)) return;
+      event.preventDefault();
+      curtain.hidden = true;
+      this.#take(event.dataTransfer.files[0]);
+    });
+  }
+
+  async #take(file) {
+    if (!file) return;
+    this.input.value = '';
+    this.panel.select('compare');
+    this.element.scrollIntoView({ block: 'nearest' });
+    this.modes.element.hidden = true;
+    this.#file = undefined;
+    this.overlay.hide();
+    try {
+      const bytes = await file.arrayBuffer();
+      const head = readExrHead(bytes);
+      this.#file = { name: file.name, bytes, ...head };
+    } catch (error) {
+      return this.#say(error.message);
+    }
+    this.compare.end();
+    const hasAir = this.#file.channels.includes('Z');
+    this.modes.element.hidden = false;
+    this.modes.element.querySelector('[data-value=air]').hidden = !hasAir;
+    this.modes.choose(hasAir ? 'air' : 'figures');
+  }
+
+  // As large as the picture, which must be the frame's size.
+  #scene(format) {
+    const { image, ...scene } = this.state.document();
+    const { channels, layers, ...look } = image ?? {};
+    const { width, height } = this.#file;
+    return { ...scene, image: { ...look, width, height, format } };
+  }
+
+  async #show() {
+    if (!this.#file) return;
+    const { name, bytes, width, height } = this.#file;
+    const mode = this.modes.value;
+    this.overlay.hide();
+    this.#say(mode === 'air' ? 'Laying the air over it…' : 'Judging it…');
+    const onWait = (error) => this.#say(inWords(error));
+    const title = h('p', { className: 'help' }, `${name}, ${width} × ${height}`);
+    try {
+      if (mode === 'figures') {
+        const figures = await this.#task.run((signal) => judge(this.#scene('png'), bytes, signal), onWait);
+        if (figures) this.#put(title, figuresTable(figures));
+        return;
+      }
+      const ask = mode === 'air' ? composite : judgeAsPicture;
+      const picture = await this.#task.run((signal) => ask(this.#scene('png'), bytes, signal), onWait);
+      if (!picture || this.modes.value !== mode) return;
+      if (mode === 'air') {
+        await this.overlay.show(picture, 'Your picture with this sky’s air over it');
+        this.#put(title, this.#back());
+      } else {
+        const scale = await this.overlay.showErrors(picture, { width, height },
+                                                    'The error of your picture: blue too dark, red too bright');
+        this.#put(title, scale, this.#back());
+      }
+    } catch (error) {
+      this.#say(inWords(error));
+    }
+  }
+
+  #back() {
+    return h('button', { type: 'button', className: 'chip', onclick: () => {
+      this.overlay.hide();
+      this.#file = undefined;
+      this.modes.element.hidden = true;
+      this.place.replaceChildren();
+    } }, 'Back to the sky');
+  }
+  #put(...elements) {
+    this.place.classList.remove('stale');
+    this.place.replaceChildren(...elements);
+  }
+  #say(text) {
+    this.#put(h('p', { className: 'help' }, text));
+  }
+}
