@@ -11,8 +11,12 @@ import { Task } from './task.js';
 
 const HEIGHT = 250;
 const SHAPES = {
-  nishita: 'M-4-4H4V4H-4Z', raymarch: 'M0-5 5 4H-5Z', hillaire: 'M0 5 5-4H-5Z', bruneton: 'M0-5.5 5.5 0 0 5.5-5.5 0Z',
-  moments: 'M-4.5 0A4.5 4.5 0 1 0 4.5 0 4.5 4.5 0 1 0-4.5 0Z', path: 'M-1.5-5h3v3.5H5v3H1.500V5h-3V1.500H-5v-3h3.500Z',
+  nishita: 'M-4-4H4V4H-4Z',
+  raymarch: 'M0-5 5 4H-5Z',
+  hillaire: 'M0 5 5-4H-5Z',
+  bruneton: 'M0-5.5 5.5 0 0 5.5-5.5 0Z',
+  moments: 'M-4.5 0A4.5 4.5 0 1 0 4.5 0 4.5 4.5 0 1 0-4.5 0Z',
+  path: 'M-1.5-5h3v3.5h3.5v3h-3.5v3.5h-3v-3.5h-3.5v-3h3.5Z',
 };
 
 /** The points that none beats in both, fastest first. */
@@ -42,7 +46,7 @@ export class ChartBlock {
         + 'render by it.'), this.place, this.words);
     state.addEventListener('change', () => {
       this.#mark();
-      if (this.#points.length && !this.#task.running) this.place.classList.toggle('stale', this.#isStale());
+      if (!this.#task.running) this.place.classList.toggle('stale', this.#points.length > 0 && this.#isStale());
     });
   }
 
@@ -114,22 +118,23 @@ export class ChartBlock {
     const front = paretoFront(this.#points);
     plot.layer.append(svg('path', { class: 'front', d: front.map((point, i) =>
       `${i ? 'L' : 'M'}${spot(point).map((value) => value.toFixed(1)).join(' ')}`).join('') }));
-    for (const point of this.#points) plot.layer.append(this.#dot(point, spot(point), front.includes(point)));
+    plot.layer.append(...this.#points.map((point) => this.#dot(point, spot(point), front.includes(point))));
     this.place.replaceChildren(plot.element, this.#legend());
     this.#mark();
     if (focused) this.place.querySelector(`[data-point="${CSS.escape(focused)}"]`)?.focus();
   }
 
   #dot(point, [x, y], best) {
-    const name = `${this.titles[point.method]}, ${optionsText(point.options)}: error ${percent(point.error)}, ` +
-      `${format(Number(point.frame_ms.toPrecision(2)))} ms`;
+    const { method, options, error, frame_ms: ms } = point;
+    const name = `${this.titles[method]}, ${optionsText(options)}: ` +
+      `error ${percent(error)}, ${format(Number(ms.toPrecision(2)))} ms`;
     const choose = () => this.#choose(point);
-    const dot = svg('g', { class: `point of-${point.method}${best ? ' best' : ''}`, role: 'button', tabindex: 0,
+    const dot = svg('g', { class: `point of-${method}${best ? ' best' : ''}`, role: 'button', tabindex: 0,
                            transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
                            'aria-pressed': 'false', 'aria-label': name,
-                           'data-point': keyOf(point), 'data-method': point.method },
+                           'data-point': keyOf(point), 'data-method': method },
       svg('title', {}, name), svg('circle', { r: 11, class: 'reach' }),
-      svg('path', { d: SHAPES[point.method] ?? SHAPES.moments }));
+      svg('path', { d: SHAPES[method] ?? SHAPES.moments }));
     dot.addEventListener('click', choose);
     dot.addEventListener('keydown', (event) => {
       if (event.key !== 'Enter' && event.key !== ' ') return;
@@ -140,7 +145,8 @@ export class ChartBlock {
   }
 
   #legend() {
-    const present = Object.keys(this.titles).filter((name) => this.#points.some(({ method }) => method === name));
+    const measured = new Set(this.#points.map(({ method }) => method));
+    const present = Object.keys(this.titles).filter((name) => measured.has(name));
     return h('ul', { className: 'chart-legend' }, present.map((name) => h('li', {},
       svg('svg', { viewBox: '-6 -6 12 12', class: `point of-${name}`, 'aria-hidden': 'true' },
           svg('path', { d: SHAPES[name] ?? SHAPES.moments })), this.titles[name])));

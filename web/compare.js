@@ -70,12 +70,17 @@ export class Compare {
   // Both are seen by the same camera, with the same exposure: what differs is the light.
   #otherScene() {
     const scene = this.state.document();
-    const { camera, image } = scene;
+    const { image } = scene;
     const chosen = this.against.value === 'pinned'
-      ? { ...this.#pinned, camera, image }
+      ? { ...this.#pinned, camera: this.#cameraFor(this.#pinned), image }
       : { ...scene, method: { name: this.against.value } };
     if (this.#exposure === undefined) return chosen;
     return { ...chosen, image: { ...image, exposure_ev: this.#exposure } };
+  }
+  // Another preset has another camera of its own, so that it is told all of this one's.
+  #cameraFor({ preset }) {
+    const { preset: own, camera } = this.state.document();
+    return preset === own ? camera : this.state.value('camera');
   }
   #matchExposure() {
     const exposure = Number(this.view.facts.exposure);
@@ -137,8 +142,8 @@ export class Compare {
       if (this.modes.value !== 'error') return;
       const picture = await this.#pictured.run((signal) => compareAsPicture(a, b, signal), onWait);
       if (!picture || this.modes.value !== 'error' || !this.against.value) return;
-      const scale = await this.overlay.showErrors(picture, { width, height },
-                                                  'The error by pixel: blue too dark, red too bright');
+      const scale = await this.overlay.showErrors(
+        picture, { width, height }, 'The error by pixel: blue too dark, red too bright');
       this.place.append(scale);
     } catch (error) {
       this.#say(inWords(error));

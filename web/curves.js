@@ -76,20 +76,23 @@ const KINDS = ['short', 'middle', 'long'];
 function drawPhase({ phase }, { angle_deg, phase_wavelengths_nm: wavelengths }) {
   if (!phase) return undefined;
   const order = wavelengths.map((_, i) => i).sort((a, b) => wavelengths[a] - wavelengths[b]);
-  const all = order.map((i, rank) => ({ name: `${Math.round(wavelengths[i])} nm`, values: phase[i],
-    kind: order.length === 3 ? KINDS[rank] : KINDS[1] })).filter(({ values }) => values.some((value) => value > 0));
+  const kinds = order.length === 3 ? KINDS : KINDS.slice(1);
+  const all = order
+    .map((i, rank) => ({ name: `${Math.round(wavelengths[i])} nm`, values: phase[i], kind: kinds[rank] }))
+    .filter(({ values }) => values.some((value) => value > 0));
   const same = all.every(({ values }) => values.every((value, i) => close(value, all[0].values[i])));
   const series = same ? [{ ...all[0], name: 'all wavelengths', kind: 'main' }] : all;
   return polarPlot({ label: 'Phase function against scattering angle', angle_deg, series });
 }
 const close = (a, b) => Math.abs(a - b) <= 1e-3 * Math.max(Math.abs(a), Math.abs(b));
 
-function drawCoefficient({ scattering_per_km: scattering, absorption_per_km: absorption }, { wavelengths_nm }) {
-  const along = (values) => values.map((value, i) => [wavelengths_nm[i], value]).sort(([a], [b]) => a - b);
+function drawCoefficient(curves, { wavelengths_nm: wavelengths }) {
+  const { scattering_per_km: scattering, absorption_per_km: absorption } = curves;
+  const along = (values) => values.map((value, i) => [wavelengths[i], value]).sort(([a], [b]) => a - b);
   const series = [{ name: 'scattering', kind: 'main', points: along(scattering) },
                   { name: 'absorption', kind: 'second', points: along(absorption) }]
     .filter(({ points }) => points.some(([, value]) => value > 0));
-  return linePlot({ label: 'Coefficients against wavelength', height: 190,
-    x: { title: 'wavelength', unit: 'nm' },
-    y: { title: series.length > 1 ? 'where it is densest' : series[0]?.name ?? '', unit: 'km⁻¹', low: 0 }, series });
+  const title = series.length > 1 ? 'where it is densest' : series[0]?.name ?? '';
+  return linePlot({ label: 'Coefficients against wavelength', height: 190, series,
+                    x: { title: 'wavelength', unit: 'nm' }, y: { title, unit: 'km⁻¹', low: 0 } });
 }

@@ -27,7 +27,11 @@ function plainName(name) {
 export function explainBlock(state, view) {
   const task = new Task();
   const place = h('div', { className: 'result', 'aria-live': 'polite' });
-  const say = (text) => place.replaceChildren(h('p', { className: 'help' }, text));
+  const put = (element) => {
+    place.classList.remove('stale');
+    place.replaceChildren(element);
+  };
+  const say = (text) => put(h('p', { className: 'help' }, text));
   const button = h('button', { type: 'button', className: 'chip' }, 'Explain');
   const idle = () => { button.textContent = 'Explain'; };
   button.addEventListener('click', async () => {
@@ -46,7 +50,7 @@ export function explainBlock(state, view) {
       const asked = { ...scene, image: small, method: { max_error: ERROR, ...method } };
       const worth = await task.run((signal) => explain(asked, signal),
                                    (error) => say(inWords(error)));
-      if (worth) place.replaceChildren(draw(worth));
+      if (worth) put(draw(worth));
     } catch (error) {
       say(inWords(error));
     }
@@ -55,11 +59,12 @@ export function explainBlock(state, view) {
   state.addEventListener('change', () => {
     if (!task.running && place.firstElementChild) place.classList.add('stale');
   });
-  new MutationObserver(() => place.classList.remove('stale')).observe(place, { childList: true });
   return h('section', { className: 'block', id: 'explain-block' },
     h('div', { className: 'row' }, h('h2', {}, 'What each part is worth'), button),
     h('p', { className: 'help' }, 'How wrong this picture would be without it.'), place);
 }
+
+const short = (value) => format(Number(value.toPrecision(2)));
 
 function draw(worth) {
   const rows = Object.entries(worth).sort(([, a], [, b]) => b.error - a.error)
@@ -67,8 +72,8 @@ function draw(worth) {
       name: plainName(name),
       share: Math.log(Math.max(error, LEAST) / LEAST) / Math.log(1 / LEAST),
       text: percent(error),
-      title: [ciede2000 === null ? '' : `Colour difference ΔE₀₀ ${format(Number(ciede2000.toPrecision(2)))}`,
-              `device time saved ${format(Number(saved.toPrecision(2)))} ms`].filter(Boolean).join('; '),
+      title: `${ciede2000 === null ? '' : `Colour difference ΔE₀₀ ${short(ciede2000)}; `}` +
+        `device time saved ${short(saved)} ms`,
     }));
   return h('div', {}, bars('Error of leaving out', rows),
            h('p', { className: 'help' }, 'Bars are logarithmic, from 0.01 % to 100 %.'));

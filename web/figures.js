@@ -7,7 +7,8 @@ export const percent = (value, digits = 2) =>
   `${format(Number((100 * value).toPrecision(digits))).replace('-', '−')} %`;
 
 const FIGURES = [
-  ['error', 'Error', percent, 'The larger of the root mean square of the relative difference and a third of its 99th percentile'],
+  ['error', 'Error', percent,
+   'The larger of the root mean square of the relative difference and a third of its 99th percentile'],
   ['bias', 'Bias', percent, 'The mean difference: above 0 is brighter'],
   ['p99', '99 % within', percent, 'The difference that 99 of 100 values stay below'],
   ['max', 'Worst', percent, 'The largest difference of any value'],

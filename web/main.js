@@ -1,4 +1,14 @@
 // Puts the page together: the scene, its picture, its controls.
+//
+//   the scene       state paths link
+//   the daemon      api multipart retry task
+//   the picture     view camera projection; over it wipe and overlay
+//   Skies           presets
+//   Adjust          panel schema controls editors spectrum numbers methods; constituents curves
+//                   together; day day_clock day_strip
+//   Compare         compare figures chart explain bars own exr
+//   Probe, Save     probe, save
+//   drawing         dom plot polar segmented; what is drawn is computed by the daemon
 
 import { inWords, list, plan } from './api.js';
 import { Camera } from './camera.js';
@@ -146,10 +156,11 @@ async function start() {
   controls = new Controls(state, schema);
   const constituents = new Constituents(state, schema, controls);
   methodOptions = new MethodOptions(methods, state, controls);
-  const dayStrip = new Day({ state, view, idle, fold: () => byId('adjust').querySelector('[data-group=day]') });
+  const fold = () => byId('adjust').querySelector('[data-group=day]');
+  const day = new Day({ state, view, idle, fold });
   byId('adjust').replaceChildren(...buildFolds(schema, controls, MethodOptions.paths(methods), {
-    atmosphere: [constituents.element], method: [methodOptions.element], day: [dayStrip.element] }));
-  byId('adjust').querySelector('[data-group=day]').addEventListener('toggle', () => dayStrip.opened());
+    atmosphere: [constituents.element], method: [methodOptions.element], day: [day.element] }));
+  fold().addEventListener('toggle', () => day.refresh());
   byId('skies').replaceChildren(presetGallery(presets, state, idle));
   byId('compare').replaceChildren(...comparePage(methods));
   byId('save').replaceChildren(...savePage(state, view));

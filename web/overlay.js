@@ -4,9 +4,8 @@ import { h } from './dom.js';
 
 const LEGEND_PX = 36;  // at most, of an error picture's bar below its pixels
 
-export class Overlay extends EventTarget {
+export class Overlay {
   constructor(canvas) {
-    super();
     this.canvas = canvas;
     this.context = canvas.getContext('2d');
   }
@@ -43,12 +42,7 @@ export class Overlay extends EventTarget {
     this.canvas.classList.toggle('filling', Math.abs(shape - 1) < 0.02);
   }
 
-  get showing() {
-    return !this.canvas.hidden;
-  }
   hide() {
-    if (this.canvas.hidden) return;
     this.canvas.hidden = true;
-    this.dispatchEvent(new Event('hidden'));
   }
 }

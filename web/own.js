@@ -80,11 +80,11 @@ export class OwnPicture {
   }
 
   // As large as the picture, which must be the frame's size.
-  #scene(format) {
+  #scene() {
     const { image, ...scene } = this.state.document();
     const { channels, layers, ...look } = image ?? {};
     const { width, height } = this.#file;
-    return { ...scene, image: { ...look, width, height, format } };
+    return { ...scene, image: { ...look, width, height, format: 'png' } };
   }
 
   async #show() {
@@ -93,23 +93,24 @@ export class OwnPicture {
     const mode = this.modes.value;
     this.overlay.hide();
     this.#say(mode === 'air' ? 'Laying the air over it…' : 'Judging it…');
+    const scene = this.#scene();
     const onWait = (error) => this.#say(inWords(error));
     const title = h('p', { className: 'help' }, `${name}, ${width} × ${height}`);
     try {
       if (mode === 'figures') {
-        const figures = await this.#task.run((signal) => judge(this.#scene('png'), bytes, signal), onWait);
+        const figures = await this.#task.run((signal) => judge(scene, bytes, signal), onWait);
         if (figures) this.#put(title, figuresTable(figures));
         return;
       }
       const ask = mode === 'air' ? composite : judgeAsPicture;
-      const picture = await this.#task.run((signal) => ask(this.#scene('png'), bytes, signal), onWait);
+      const picture = await this.#task.run((signal) => ask(scene, bytes, signal), onWait);
       if (!picture || this.modes.value !== mode) return;
       if (mode === 'air') {
-        await this.overlay.show(picture, 'Your picture with this sky’s air over it');
+        await this.overlay.show(picture, 'Your picture with the air of this sky over it');
         this.#put(title, this.#back());
       } else {
-        const scale = await this.overlay.showErrors(picture, { width, height },
-                                                    'The error of your picture: blue too dark, red too bright');
+        const scale = await this.overlay.showErrors(
+          picture, { width, height }, 'The error of your picture: blue too dark, red too bright');
         this.#put(title, scale, this.#back());
       }
     } catch (error) {

@@ -19,10 +19,10 @@ export class Probe {
   /** `panel` opens the tab and says whether it is seen; `mark` is the ring on the picture. */
   constructor({ state, view, panel, mark }) {
     Object.assign(this, { state, view, panel, mark });
-    this.hint = h('p', { className: 'help' }, 'Click or tap the picture. P on the keyboard probes its middle.');
     this.place = h('div', { className: 'result', 'aria-live': 'polite' });
-    this.swatch = h('span', { className: 'swatch' });
-    this.element = h('div', { className: 'block' }, h('h2', {}, 'Light from a direction'), this.hint, this.place);
+    this.element = h('div', { className: 'block' }, h('h2', {}, 'Light from a direction'),
+      h('p', { className: 'help' }, 'Click or tap the picture. P on the keyboard probes its middle.'),
+      this.place);
     view.canvas.addEventListener('tap', ({ detail }) => { if (this.#active()) this.#point(detail); });
     state.addEventListener('change', () => {
       this.#follow();
@@ -126,11 +126,11 @@ export class Probe {
   #facts({ error, method, luminance_cd_m2: luminance, rgb: [rgb], standard_error: noise }) {
     const { elevation_deg: elevation, azimuth_deg: azimuth } = this.#target;
     const shown = this.#colourOnScreen();
-    this.swatch = h('span', { className: 'swatch' });
-    if (shown) this.swatch.style.backgroundColor = shown;
+    const swatch = h('span', { className: 'swatch' });
+    if (shown) swatch.style.backgroundColor = shown;
     const rows = [
       ['Direction', `${significant(elevation)}° up, ${significant((azimuth + 360) % 360)}° from north`],
-      ['Colour', [this.swatch, shown ?? 'outside the picture']],
+      ['Colour', [swatch, shown ?? 'outside the picture']],
       ['Linear R, G, B', rgb.map((value) => significant(value)).join(', ')],
       ['Luminance', luminance ? `${significant(luminance[0])} cd/m²` : 'none: the channels are radiances'],
       ['Error', `≤ ${percent(error)}`],

@@ -4,152 +4,185 @@ import { h, svg } from './dom.js';
 import { format, parse, Scale, unitText } from './numbers.js';
 import { axes } from './plot.js';
 
-const SHORTEST = 380;
-const LONGEST = 730;
+const SHORTEST_NM = 380;
+const LONGEST_NM = 730;
+const ALLOWED_NM = [10, 5000];
+const APART_NM = 1;  // at least, between two nodes
+const STEP_NM = 5;
 const HEIGHT = 150;
 const VIEW_WIDTH = 312;
-const GRIP = 24;        // of the drawing's own pixels
-const APART_NM = 1;     // at least, between two nodes
+const GRIP = 24;  // in the drawing's own unit
 
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
 const tidy = (value) => Number(value.toPrecision(3));
 
 /** The editor of `{ wavelengths_nm, values }`; `node` describes a value. */
-export function spectrumCurve(node, binding) {
-  const range = new Scale(node);
-  let chosen = 0;
-  let plot;
-  const place = h('div', { className: 'spectrum', role: 'group',
-    'aria-label': `${binding.label}: nodes, moved by dragging or arrow keys` });
-  const typed = h('input', { type: 'text', inputMode: 'decimal', className: 'typed', 'aria-label':
-    `${binding.label}: value of the chosen node`, onchange: () => {
-      const value = parse(typed.value);
-      if (value === undefined) binding.complain('This needs a number.');
-      else move(chosen, at(chosen)[0], value);
-    } });
-  const where = h('span', { className: 'quiet' });
-  const button = (title, act) => h('button', { type: 'button', className: 'chip', onclick: act }, title);
-  const add = button('Add a node', () => insert());
-  const remove = button('Remove it', () => drop());
+export const spectrumCurve = (node, binding) => new SpectrumCurve(node, binding);
 
-  const nodes = () => {
-    const { wavelengths_nm: wavelengths = [], values = [] } = binding.get() ?? {};
+class SpectrumCurve {
+  #chosen = 0;
+  #plot;
+
+  constructor(node, binding) {
+    this.unit = unitText(node['x-unit']);
+    this.range = new Scale(node);
+    this.binding = binding;
+    const { label } = binding;
+    this.place = h('div', { className: 'spectrum', role: 'group',
+                            'aria-label': `${label}: nodes, moved by dragging or arrow keys` });
+    this.typed = h('input', { type: 'text', inputMode: 'decimal', className: 'typed',
+                              'aria-label': `${label}: value of the chosen node`, onchange: () => this.#type() });
+    this.where = h('span', { className: 'quiet' });
+    const button = (title, what, act) => h('button', {
+      type: 'button', className: 'chip', 'aria-label': what, title: what, onclick: act }, title);
+    this.remove = button('Remove', 'Remove the chosen node', () => this.#drop());
+    this.element = h('div', { className: 'stack' }, this.place, h('div', { className: 'row' },
+      this.where, this.typed, button('Add', 'Add a node', () => this.#insert()), this.remove));
+    this.#bindPointer();
+    this.place.addEventListener('keydown', (event) => this.#key(event));
+    this.place.addEventListener('focusin', ({ target }) => {
+      const { node: index } = target.dataset;
+      if (index === undefined || Number(index) === this.#chosen) return;
+      this.#chosen = Number(index);
+      this.refresh();
+    });
+  }
+
+  refresh() {
+    const list = this.#nodes();
+    this.#chosen = clamp(this.#chosen, 0, Math.max(0, list.length - 1));
+    if (!list.length) return;
+    this.#draw(list);
+    const [wavelength, value] = list[this.#chosen];
+    this.where.textContent = `${format(wavelength)} nm`;
+    if (document.activeElement !== this.typed) this.typed.value = format(value);
+    this.remove.disabled = list.length < 3;
+  }
+
+  // ---- The nodes: [wavelength, value] ---------------------------------------------------------
+
+  #nodes() {
+    const { wavelengths_nm: wavelengths = [], values = [] } = this.binding.get() ?? {};
     return wavelengths.map((wavelength, i) => [wavelength, values[i]]);
-  };
-  const at = (index) => nodes()[index] ?? [550, 0];
-  const put = (list) => binding.set({ wavelengths_nm: list.map(([wavelength]) => wavelength),
-                                      values: list.map(([, value]) => value) });
-  // A node stays between its neighbours.
-  const move = (index, wavelength, value) => {
-    const list = nodes();
-    const low = index ? list[index - 1][0] + APART_NM : 10;
-    const high = index + 1 < list.length ? list[index + 1][0] - APART_NM : 5000;
-    list[index] = [clamp(Math.round(wavelength), low, high), value];
-    put(list);
-  };
-  const insert = () => {
-    const list = nodes();
-    const after = chosen + 1 < list.length ? chosen : chosen - 1;
-    const [left, right] = [list[after] ?? list[0], list[after + 1] ?? list[0]];
-    if (right[0] - left[0] < 2 * APART_NM) return;
-    chosen = after + 1;
-    put([...list.slice(0, chosen), [Math.round((left[0] + right[0]) / 2), tidy((left[1] + right[1]) / 2)],
-         ...list.slice(chosen)]);
-  };
-  const drop = () => {
-    const list = nodes();
+  }
+  #put(list) {
+    this.binding.set({ wavelengths_nm: list.map(([wavelength]) => wavelength),
+                       values: list.map(([, value]) => value) });
+  }
+  // The chosen one stays between its neighbours.
+  #move(wavelength, value) {
+    const list = this.#nodes();
+    const low = list[this.#chosen - 1]?.[0] + APART_NM || ALLOWED_NM[0];
+    const high = list[this.#chosen + 1]?.[0] - APART_NM || ALLOWED_NM[1];
+    list[this.#chosen] = [clamp(Math.round(wavelength), low, high), value];
+    this.#put(list);
+  }
+  #type() {
+    const value = parse(this.typed.value);
+    if (value === undefined) this.binding.complain('This needs a number.');
+    else this.#move(this.#nodes()[this.#chosen][0], value);
+  }
+  // Between the chosen one and the next; the last has its place before it.
+  #insert() {
+    const list = this.#nodes();
+    const after = Math.min(this.#chosen, list.length - 2);
+    const [[left, a], [right, b]] = [list[after], list[after + 1] ?? list[after]];
+    if (!(right - left >= 2 * APART_NM)) return;
+    this.#chosen = after + 1;
+    list.splice(this.#chosen, 0, [Math.round((left + right) / 2), tidy((a + b) / 2)]);
+    this.#put(list);
+  }
+  #drop() {
+    const list = this.#nodes();
     if (list.length < 3) return;
-    list.splice(chosen, 1);
-    chosen = Math.max(0, chosen - 1);
-    put(list);
-  };
+    list.splice(this.#chosen, 1);
+    this.#put(list);
+  }
 
-  const draw = () => {
-    const list = nodes();
-    const focused = place.contains(document.activeElement);
+  // ---- The drawing ----------------------------------------------------------------------------
+
+  #draw(list) {
+    const focused = this.place.contains(document.activeElement);
     const wavelengths = list.map(([wavelength]) => wavelength);
-    const least = range.logarithmic ? range.low : Math.min(range.low, ...list.map(([, value]) => value));
-    plot = axes({ label: `${binding.label} against wavelength`, height: HEIGHT,
-      x: { title: 'wavelength', unit: 'nm', low: Math.min(SHORTEST, ...wavelengths),
-           high: Math.max(LONGEST, ...wavelengths) },
-      y: { title: '', unit: unitText(node['x-unit']), scale: range.logarithmic ? 'log' : 'linear', low: least,
-           high: Math.max(range.high, ...list.map(([, value]) => value)) } });
-    plot.element.removeAttribute('tabindex');
-    plot.element.setAttribute('role', 'presentation');
-    const spots = list.map(([wavelength, value]) =>
-      [plot.x.at(wavelength), plot.y.at(range.logarithmic ? Math.max(value, range.low) : value)]);
-    if (!spots.length) return;
-    const ends = [[plot.x.from, spots[0][1]], ...spots, [plot.x.to, spots.at(-1)[1]]];
-    plot.layer.append(svg('path', { class: 'line main', d: ends.map(([x, y], i) =>
-      `${i ? 'L' : 'M'}${x.toFixed(1)} ${y.toFixed(1)}`).join('') }), ...spots.map(([x, y], i) => nodeAt(x, y, i, list[i])));
-    place.replaceChildren(plot.element);
-    if (focused) place.querySelector(`[data-node="${chosen}"]`)?.focus({ preventScroll: true });
-  };
-  const nodeAt = (x, y, index, [wavelength, value]) => {
+    const values = list.map(([, value]) => value);
+    const { low, high, logarithmic } = this.range;
+    this.#plot = axes({ label: '', height: HEIGHT,
+      x: { title: 'wavelength', unit: 'nm', low: Math.min(SHORTEST_NM, ...wavelengths),
+           high: Math.max(LONGEST_NM, ...wavelengths) },
+      y: { title: this.unit ? 'value' : '', unit: this.unit, scale: logarithmic ? 'log' : 'linear',
+           low: logarithmic ? low : Math.min(low, ...values), high: Math.max(high, ...values) } });
+    const { element, layer, x } = this.#plot;
+    for (const name of ['tabindex', 'aria-label']) element.removeAttribute(name);
+    element.setAttribute('role', 'presentation');
+    const spots = list.map((node) => this.#spotOf(node));
+    const line = [[x.from, spots[0][1]], ...spots, [x.to, spots.at(-1)[1]]];
+    layer.append(svg('path', { class: 'line main', d: line.map(([across, up], i) =>
+      `${i ? 'L' : 'M'}${across.toFixed(1)} ${up.toFixed(1)}`).join('') }),
+      ...list.map((node, i) => this.#dot(node, spots[i], i)));
+    this.place.replaceChildren(element);
+    if (focused) this.#focus();
+  }
+  #dot([wavelength, value], [cx, cy], index) {
     const words = `${format(wavelength)} nm: ${format(value)}`;
-    return svg('circle', { cx: x, cy: y, r: 6, class: `node${index === chosen ? ' chosen' : ''}`, tabindex: 0,
-      role: 'slider', 'aria-label': `${binding.label}, node ${index + 1}`, 'aria-valuenow': value,
+    return svg('circle', { cx, cy, r: 6, class: `node${index === this.#chosen ? ' chosen' : ''}`, tabindex: 0,
+      role: 'slider', 'aria-label': `${this.binding.label}, node ${index + 1}`, 'aria-valuenow': value,
       'aria-valuetext': words, 'data-node': index }, svg('title', {}, words));
-  };
+  }
+  #spotOf([wavelength, value]) {
+    const { x, y } = this.#plot;
+    return [x.at(wavelength), y.at(this.range.logarithmic ? Math.max(value, this.range.low) : value)];
+  }
+  #focus() {
+    this.place.querySelector(`[data-node="${this.#chosen}"]`)?.focus({ preventScroll: true });
+  }
 
-  // Pointers are held by the place, since every move draws the plot anew.
-  const spotOf = (event) => {
-    const box = place.getBoundingClientRect();
-    const factor = VIEW_WIDTH / box.width;
-    return [(event.clientX - box.left) * factor, (event.clientY - box.top) * factor];
-  };
-  place.addEventListener('pointerdown', (event) => {
-    const [x, y] = spotOf(event);
-    const gaps = nodes().map(([wavelength, value]) => Math.hypot(plot.x.at(wavelength) - x,
-      plot.y.at(range.logarithmic ? Math.max(value, range.low) : value) - y));
-    const nearest = gaps.indexOf(Math.min(...gaps));
-    if (!(gaps[nearest] < GRIP)) return;
-    chosen = nearest;
-    place.setPointerCapture(event.pointerId);
-    event.preventDefault();
-    refresh();
-    place.querySelector(`[data-node="${chosen}"]`)?.focus({ preventScroll: true });
-  });
-  place.addEventListener('pointermove', (event) => {
-    if (!place.hasPointerCapture(event.pointerId)) return;
-    const [x, y] = spotOf(event);
-    const { x: across, y: up } = plot;
-    const wavelength = across.low + ((x - across.from) / (across.to - across.from)) * (across.high - across.low);
-    const share = clamp((y - up.from) / (up.to - up.from), 0, 1);
-    move(chosen, wavelength, tidy(range.toValue(share * range.positions)));
-  });
-  place.addEventListener('focusin', (event) => {
-    if (event.target.dataset.node === undefined || Number(event.target.dataset.node) === chosen) return;
-    chosen = Number(event.target.dataset.node);
-    refresh();
-  });
-  place.addEventListener('keydown', (event) => {
-    const [wavelength, value] = at(chosen);
+  // ---- Hands ----------------------------------------------------------------------------------
+
+  // The place holds the pointer, since every move draws the plot anew.
+  #bindPointer() {
+    const { place } = this;
+    const spot = (event) => {
+      const box = place.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top].map((length) => (length * VIEW_WIDTH) / box.width);
+    };
+    place.addEventListener('pointerdown', (event) => {
+      const [x, y] = spot(event);
+      const gaps = this.#nodes().map((node) => this.#spotOf(node))
+        .map(([across, up]) => Math.hypot(across - x, up - y));
+      const nearest = gaps.indexOf(Math.min(...gaps));
+      if (!(gaps[nearest] < GRIP)) return;
+      event.preventDefault();
+      place.setPointerCapture(event.pointerId);
+      this.#chosen = nearest;
+      this.refresh();
+      this.#focus();
+    });
+    place.addEventListener('pointermove', (event) => {
+      if (place.hasPointerCapture(event.pointerId)) this.#dragTo(spot(event));
+    });
+  }
+  #dragTo([x, y]) {
+    const { x: across, y: up } = this.#plot;
+    const along = (axis, at) => clamp((at - axis.from) / (axis.to - axis.from), 0, 1);
+    const value = this.range.toValue(along(up, y) * this.range.positions);
+    this.#move(across.low + along(across, x) * (across.high - across.low), tidy(value));
+  }
+
+  #key(event) {
+    const [wavelength, value] = this.#nodes()[this.#chosen];
+    const { range } = this;
     const step = range.positions / (event.shiftKey ? 10 : 100);
-    const to = (by) => tidy(range.toValue(clamp(range.toPosition(value) + by, 0, range.positions)));
-    const moves = { ArrowUp: [0, step], ArrowDown: [0, -step], ArrowLeft: [-5, 0], ArrowRight: [5, 0] };
-    if (event.key in moves) {
-      const [across, up] = moves[event.key];
-      move(chosen, wavelength + across, up ? to(up) : value);
-    } else if (event.key === 'Delete') {
-      drop();
-    } else {
-      return;
-    }
+    const raise = (by) => {
+      const position = clamp(range.toPosition(value) + by, 0, range.positions);
+      this.#move(wavelength, tidy(range.toValue(position)));
+    };
+    const act = {
+      ArrowUp: () => raise(step), ArrowDown: () => raise(-step), Delete: () => this.#drop(),
+      ArrowLeft: () => this.#move(wavelength - STEP_NM, value),
+      ArrowRight: () => this.#move(wavelength + STEP_NM, value),
+    }[event.key];
+    if (!act || event.target === this.typed) return;
     event.preventDefault();
-  });
-
-  const refresh = () => {
-    chosen = clamp(chosen, 0, Math.max(0, nodes().length - 1));
-    draw();
-    const [wavelength, value] = at(chosen);
-    where.textContent = `${format(wavelength)} nm`;
-    if (document.activeElement !== typed) typed.value = format(value);
-    remove.disabled = nodes().length < 3;
-  };
-  return {
-    element: h('div', { className: 'stack' }, place,
-               h('div', { className: 'row' }, where, typed, add, remove)),
-    refresh,
-  };
+    act();
+  }
 }

@@ -26,6 +26,9 @@ export const sizeOf = (spectrum) => (typeof spectrum === 'number' ? spectrum
 const VISIBILITY = { type: 'number', minimum: 0.01, maximum: 1000, 'x-unit': 'km',
                      'x-slider': { minimum: 0.5, maximum: 300, scale: 'log' } };
 
+const VISIBILITY_HELP =
+  'How far a black object is seen through the haze at the ground; moves with the optical depth';
+
 /**
  * A slider of the visibility that an optical depth amounts to, and back: moving one moves the other.
  * The daemon says what visibility the haze had; that is inverse to its optical depth.
@@ -44,11 +47,12 @@ export function linkedVisibility(path, state, optics, name) {
     },
   });
   const element = h('div', { className: 'control linked' },
-    h('div', { className: 'head' }, h('span', { className: 'title',
-      title: 'How far a black object is seen through the haze at the ground; moves with the optical depth' }, 'Visibility')),
+    h('div', { className: 'head' }, h('span', { className: 'title', title: VISIBILITY_HELP }, 'Visibility')),
     editor.element);
   return { element, refresh: () => editor.refresh() };
 }
+
+const TIE_HELP = 'Warm air reaches higher: the scale height is proportional to the temperature';
 
 /**
  * What an edit brings along: `companions(path, value)`. A switch ties a gas's scale height to its
@@ -62,13 +66,16 @@ export class Ties {
   }
 
   companions(path, value) {
-    if (this.#isListWithoutWavelengths(path, value)) return { 'spectrum.wavelengths_nm': USUAL_PRIMARIES_NM };
+    if (this.#isListWithoutWavelengths(path, value)) {
+      return { 'spectrum.wavelengths_nm': USUAL_PRIMARIES_NM };
+    }
     const root = path.split('.').slice(0, -1).join('.');
     if (!this.#tied.has(root)) return {};
     const gas = this.state.value(root) ?? {};
     const height = gas.profile?.scale_height_km;
     if (path.endsWith('.temperature_k') && height > 0 && gas.temperature_k > 0 && value > 0) {
-      return { [`${root}.profile`]: { ...gas.profile, scale_height_km: tidy((height * value) / gas.temperature_k) } };
+      const reached = tidy((height * value) / gas.temperature_k);
+      return { [`${root}.profile`]: { ...gas.profile, scale_height_km: reached } };
     }
     if (path.endsWith('.profile') && height > 0 && value.scale_height_km > 0 && gas.temperature_k > 0) {
       return { [`${root}.temperature_k`]: tidy((gas.temperature_k * value.scale_height_km) / height) };
@@ -88,7 +95,6 @@ export class Ties {
                           (on) => (on ? this.#tied.add(root) : this.#tied.delete(root)));
     box.checked = this.#tied.has(root);
     return h('div', { className: 'control row linked' },
-      h('span', { className: 'title', title: 'Warm air reaches higher: the scale height is proportional to the temperature' },
-        'Temperature with scale height'), box);
+      h('span', { className: 'title', title: TIE_HELP }, 'Temperature with scale height'), box);
   }
 }

@@ -98,6 +98,7 @@ export class View extends EventTarget {
   /** Asks for nothing until `release()`: frames come from elsewhere, by `present`. */
   hold() {
     this.#held = true;
+    this.canvas.dataset.state = 'rough';
     this.#flight?.controller.abort();
     this.#flight = undefined;
     clearTimeout(this.#timer);

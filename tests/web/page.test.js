@@ -286,6 +286,16 @@ for (const size of Object.keys(SIZES)) {
       visit(size, `it is accessible in the ${colorScheme}`, async (person, page) => {
         const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
         await page.evaluate(axe);
+        // With as much to see as there is.
+        await page.locator('.card[data-name=air] summary .name').click();
+        await page.locator('[data-group=day] summary').click();
+        await page.locator('.strip-marks span').first().waitFor();
+        await person.tab('Compare');
+        await page.getByLabel('Against').selectOption('nishita');
+        await page.locator('.figures [data-figure=error]').waitFor();
+        await page.locator('#picture').focus();
+        await page.keyboard.press('p');
+        await page.locator('#probe .plot').first().waitFor();
         for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) {
           await person.tab(tab);
           const { violations } = await page.evaluate(() => window.axe.run());

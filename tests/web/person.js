@@ -42,7 +42,7 @@ export class Daemon {
   async resume() {
     this.process = spawn(binary, ['serve', '--log-level', 'warning', '--listen', `127.0.0.1:${this.port}`],
                          { stdio: ['ignore', 'ignore', 'inherit'] });
-    for (let attempt = 0; attempt < 300; ++attempt) {
+    for (let attempt = 0; attempt < 1200; ++attempt) {
       const ready = await fetch(`${this.address}readyz`).catch(() => undefined);
       if (ready?.ok) return;
       if (this.process.exitCode !== null) break;
