@@ -291,7 +291,7 @@ for (const size of Object.keys(SIZES)) {
         await page.locator('[data-group=day] summary').click();
         await page.locator('.strip-marks span').first().waitFor();
         await person.tab('Compare');
-        await page.getByLabel('Against').selectOption('nishita');
+        await page.getByLabel('Against', { exact: true }).selectOption('nishita');
         await page.locator('.figures [data-figure=error]').waitFor();
         await page.locator('#picture').focus();
         await page.keyboard.press('p');

@@ -56,8 +56,11 @@ for (const size of Object.keys(SIZES)) {
       const plot = page.locator('#probe .plot').first();
       await plot.waitFor();
       await plot.focus();
+      const before = await plot.locator('.reading').textContent();
       await page.keyboard.press('ArrowRight');
-      assert.match(await plot.locator('.reading').textContent(), /^\d+(\.\d+)? nm: [\d.]+/);
+      const after = await plot.locator('.reading').textContent();
+      assert.notEqual(after, before);
+      assert.match(after, /^\d+(\.\d+)? nm: [\d.]+/);
     });
 
     visit(size, 'a panorama is probed where it is pointed at', async (person, page) => {
