@@ -58,7 +58,7 @@ class Bruneton final : public Method {
     if (cut || quadrature) first_order_->trace(tracer, scene, options, tile);
     if (whole && !quadrature) trace_single(tracer, scene, setup, tile);
     if (!bruneton::has_multiple(scene.problem())) return;
-    if (whole) add_multiple(tracer, scene, setup, tile);
+    if (whole || scene.problem().ground) add_multiple(tracer, scene, setup, tile);
     if (cut) add_multiple_to_parts(tracer, scene, setup, tile);
   }
 
@@ -138,7 +138,10 @@ MethodDescription describe() {
            "In haze of an optical depth of 0.1 under a low sun one ray in a hundred is off by "
            "2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun of -12 deg.",
            "Narrow forward peaks (g above 0.9) are wider than they are from the second order "
-           "on, and need more zeniths and azimuths."},
+           "on, and need more zeniths and azimuths.",
+           "Where the ground differs from place to place, the light that it sends back into "
+           "the air is that of its mean albedo, slopes and the sea see an even sky, and "
+           "heights shade the air in order one alone."},
       .options =
           {nodes("orders", "Orders computed",
                  "Of all orders those that are computed; the others are a geometric series.", 2,

@@ -146,7 +146,10 @@ const MethodDescription& hillaire_description() {
            "Before objects near the camera most of the air's light is of orders two and up: it "
            "is off by 20 % in haze by day, by a third and more at sunset.",
            "The sky of a camera between 20 and 100 km is off by up to 5 % next to the horizon, "
-           "where few rows of the table lie."},
+           "where few rows of the table lie.",
+           "Where the ground differs from place to place, the light that it sends back into "
+           "the air is that of its mean albedo, slopes and the sea see an even sky, and "
+           "heights shade the air not at all."},
       // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
       // and 16 samples do what 192 and 32 do.
       .options =

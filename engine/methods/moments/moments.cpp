@@ -440,7 +440,10 @@ const MethodDescription& moments_description() {
            "Before objects near the camera the air's light is off by 4 % in haze at dusk.",
            "Order one, where it is read from a table, is off by 0.5 % for cameras above 20 km, "
            "and "
-           "by 1 % in twilight."},
+           "by 1 % in twilight.",
+           "Where the ground differs from place to place, the light that it sends back into "
+           "the air is that of its mean albedo, slopes and the sea see an even sky, and "
+           "heights shade the air not at all."},
       .options =
           {whole("degree", "Degree",
                  "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "

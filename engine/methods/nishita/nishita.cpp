@@ -136,7 +136,8 @@ const MethodDescription& nishita_description() {
       .limits = {"Multiple scattering is left out: the blue of the sky is up to half too dark, "
                  "twilight and thick haze far too dark.",
                  "Few samples lose thin layers near the ground: a yellow horizon.",
-                 "The planet's shadow on a view ray converges slowly."},
+                 "The planet's shadow on a view ray converges slowly.",
+                 "Heights of the ground do not shade the air."},
       .options = {{.name = "view_samples",
                    .title = "View samples",
                    .description = "Samples along each view ray.",
