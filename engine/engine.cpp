@@ -255,11 +255,7 @@ struct Engine::Parts {
     return batches;
   }
 
-  /// The same for a method, where the ground may differ from place to place. Heights end rays
-  /// as objects do.
-  std::vector<Batch> upload_with_ground(const Problem& problem, Rays rays,
-                                        const std::string& name, const Watch& watch) {
-    if (!problem.ground) return upload(problem, rays);
+  GroundBuffers ground_before(const Problem& problem, const Rays& rays, const Watch& watch) {
     Tracer tracer = this->tracer("surface", watch);
     int count = rays.directions.empty() ? problem.width * problem.height
                                         : static_cast<int>(rays.directions.size());
@@ -268,6 +264,28 @@ struct Engine::Parts {
                         ground);
     ground.distances_km =
         std::make_shared<const vulkan::Buffer>(surface.distances(tracer, scene, count));
+    return ground;
+  }
+
+  /// What of a client's picture stands before the ground's heights, and these, black.
+  Picture before_heights(const Problem& problem, Picture picture, const Watch& watch) {
+    if (!has_heights(problem)) return picture;
+    GroundBuffers ground = ground_before(problem, {}, watch);
+    auto ground_km = ground.distances_km->as<const float>();
+    for (std::size_t i = 0; i < ground_km.size(); ++i) {
+      if (ground_km[i] >= picture.distance_km[i]) continue;
+      picture.distance_km[i] = ground_km[i];
+      for (std::vector<float>& plane : picture.rgb) plane[i] = 0;
+    }
+    return picture;
+  }
+
+  /// The same for a method, where the ground may differ from place to place. Heights end rays
+  /// as objects do.
+  std::vector<Batch> upload_with_ground(const Problem& problem, Rays rays,
+                                        const std::string& name, const Watch& watch) {
+    if (!problem.ground) return upload(problem, rays);
+    GroundBuffers ground = ground_before(problem, rays, watch);
     if (has_heights(problem)) end_at(ground.distances_km->as<const float>(), rays);
     std::vector<Batch> batches = upload(problem, rays, wavelengths_at_once, ground);
     if (left_by(method(name), problem) != SurfacePass::Left::tables) return batches;
@@ -483,8 +501,9 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
                             FrameStore& store) {
   std::vector<double> wavelengths = wavelengths_of_transmittance(scene);
   std::vector<UploadedScene> scenes;
-  for (Batch& batch :
-       upload(make_problem(scene, wavelengths), rays_of(&picture), transmittance_wavelengths)) {
+  Problem problem = make_problem(scene, wavelengths);
+  Picture shown = before_heights(problem, picture, watch);
+  for (Batch& batch : upload(problem, rays_of(&shown), transmittance_wavelengths)) {
     scenes.push_back(std::move(batch.scene));
   }
   std::array<double, 3> luminance{1. / 3, 1. / 3, 1. / 3};
@@ -492,8 +511,8 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
     std::ranges::copy_n(xyz_from_rec709().begin() + 3, 3, luminance.begin());
   }
   Tracer tracer = this->tracer("overlay", watch);
-  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)),
-                     picture, groups, luminance, store);
+  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)), shown,
+                     groups, luminance, store);
   frame.render_ms += tracer.device_ms;
 }
 

@@ -14,7 +14,8 @@ void matter_of(Vec3 n, Terrain terrain, OUT_ARRAY(Real, share, MATTERS)) {
   // Colder by one relief's height as by 75 degrees of latitude.
   Real weather = gradient_noise(n * Real(4.3) + Vec3(1.7, 9.2, 3.4), seed + 41u) +
                  0.5 * gradient_noise(n * Real(13.7) + Vec3(6.1, 2.8, 7.7), seed + 42u);
-  Real cold_deg = latitude_deg + 12.0 * weather + 75.0 * terrain.height + 10.0 * terrain.grain -
+  Real cold_deg = latitude_deg + 12.0 * weather + 75.0 * terrain.height +
+                  6.0 * terrain.grain * (1.0 - sea) -
                   ice_latitude_deg();
   if (ice_latitude_deg() >= 90.0) cold_deg = 75.0 * (terrain.height - 0.8) + 10.0 * terrain.grain;
   // Floes float farther poleward than snow lies.
@@ -34,7 +35,7 @@ void matter_of(Vec3 n, Terrain terrain, OUT_ARRAY(Real, share, MATTERS)) {
   share[SEA] = sea * (1.0 - ice);
   share[ICE] = ice;
   Real land = (1.0 - sea) * (1.0 - ice);
-  share[ROCK] = land * max(rock, 0.6 * barren * (1.0 - plants));
+  share[ROCK] = land * max(rock, 0.4 * barren * (1.0 - plants));
   share[PLANTS] = (land - share[ROCK]) * plants;
   share[SAND] = land - share[ROCK] - share[PLANTS];
 }

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
-#include "tests/oracle/adaptive.h"
 #include "tests/scene/scene_testing.h"
 #include "tests/surface/testing.h"
 
