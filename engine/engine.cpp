@@ -18,6 +18,7 @@
 #include "engine/planner/profile.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
+#include "engine/surface/surface_pass.h"
 
 namespace cyanometer {
 namespace {
@@ -188,6 +189,7 @@ struct Engine::Parts {
         tables(options.table_bytes),
         methods(make_methods(device)),
         compositor(device),
+        surface(device),
         profiles(options.profiles) {
     const vulkan::DeviceInfo& info = device.info();
     identity = info.name + ", " + info.driver + ", " + info.api_version + ", " + version();
@@ -202,6 +204,7 @@ struct Engine::Parts {
   TableCache tables;
   std::vector<std::unique_ptr<Method>> methods;
   Compositor compositor;
+  SurfacePass surface;
   std::filesystem::path profiles;
   std::string identity;  ///< of the device and the version
   DeviceProfile profile;
@@ -225,6 +228,8 @@ struct Engine::Parts {
   struct Batch {
     std::size_t first;  ///< wavelength
     UploadedScene scene;
+    /// The same over black ground, where both are needed (SurfacePass::Left::tables).
+    std::optional<UploadedScene> black = std::nullopt;
 
     std::size_t wavelengths() const { return scene.problem().wavelengths_nm.size(); }
   };
@@ -238,16 +243,76 @@ struct Engine::Parts {
   /// All wavelengths; the rays are those given, or the camera's where no directions are.
   /// @param most  wavelengths of a batch
   std::vector<Batch> upload(const Problem& problem, const Rays& rays = {},
-                            std::size_t most = wavelengths_at_once) {
+                            std::size_t most = wavelengths_at_once, GroundBuffers ground = {}) {
     auto ends =
         rays.ends_km.empty() ? nullptr : std::make_shared<const RayEnds>(device, rays.ends_km);
     std::vector<Batch> batches;
     std::size_t count = problem.wavelengths_nm.size();
     for (std::size_t first = 0; first < count; first += most) {
       Problem part = at_wavelengths(problem, first, std::min(most, count - first));
-      batches.push_back({first, UploadedScene(device, part, rays.directions, ends)});
+      batches.push_back({first, UploadedScene(device, part, rays.directions, ends, ground)});
     }
     return batches;
+  }
+
+  GroundBuffers ground_before(const Problem& problem, const Rays& rays, const Watch& watch) {
+    Tracer tracer = this->tracer("surface", watch);
+    int count = rays.directions.empty() ? problem.width * problem.height
+                                        : static_cast<int>(rays.directions.size());
+    GroundBuffers ground{surface.texels(tracer, *problem.ground), nullptr};
+    UploadedScene scene(device, at_wavelengths(problem, 0, 1), rays.directions, nullptr,
+                        ground);
+    ground.distances_km =
+        std::make_shared<const vulkan::Buffer>(surface.distances(tracer, scene, count));
+    return ground;
+  }
+
+  /// What of a client's picture stands before the ground's heights, and these, black.
+  Picture before_heights(const Problem& problem, Picture picture, const Watch& watch) {
+    if (!has_heights(problem)) return picture;
+    GroundBuffers ground = ground_before(problem, {}, watch);
+    auto ground_km = ground.distances_km->as<const float>();
+    for (std::size_t i = 0; i < ground_km.size(); ++i) {
+      if (ground_km[i] >= picture.distance_km[i]) continue;
+      picture.distance_km[i] = ground_km[i];
+      for (std::vector<float>& plane : picture.rgb) plane[i] = 0;
+    }
+    return picture;
+  }
+
+  /// The same for a method, where the ground may differ from place to place. Heights end rays
+  /// as objects do.
+  std::vector<Batch> upload_with_ground(const Problem& problem, Rays rays,
+                                        const std::string& name, const Watch& watch) {
+    if (!problem.ground) return upload(problem, rays);
+    GroundBuffers ground = ground_before(problem, rays, watch);
+    if (has_heights(problem)) end_at(ground.distances_km->as<const float>(), rays);
+    std::vector<Batch> batches = upload(problem, rays, wavelengths_at_once, ground);
+    if (left_by(method(name), problem) != SurfacePass::Left::tables) return batches;
+    Problem black = problem;
+    std::ranges::fill(black.ground_albedo, 0.0);
+    std::vector<Batch> over_black = upload(black, rays, wavelengths_at_once, ground);
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      batches[b].black = std::move(over_black[b].scene);
+    }
+    return batches;
+  }
+
+  static SurfacePass::Left left_by(const Method& method, const Problem& problem) {
+    if (method.reflects()) return SurfacePass::Left::walks;
+    int orders = problem.scattering_orders;
+    bool one = orders == 0 || orders == 1 || method.description().highest_order == 1;
+    return one ? SurfacePass::Left::order_one : SurfacePass::Left::tables;
+  }
+
+  static void end_at(std::span<const float> ground_km, Rays& rays) {
+    if (rays.ends_km.empty()) {
+      rays.ends_km.assign(ground_km.begin(), ground_km.end());
+      return;
+    }
+    for (std::size_t i = 0; i < ground_km.size(); ++i) {
+      rays.ends_km[i] = std::min(rays.ends_km[i], ground_km[i]);
+    }
   }
 
   /// Calls `visit(batch, tile)` for every tile and batch once it is traced.
@@ -255,18 +320,28 @@ struct Engine::Parts {
   void trace_tiles(Tracer& tracer, const std::string& name, const MethodOptions& options,
                    const std::vector<Batch>& batches, int rays, Visit visit) {
     Method& m = method(name);
+    Tracer on_ground = this->tracer("surface", tracer.watch);
     const UploadedScene& largest = batches.front().scene;
     int at_once = std::min(m.rays_at_once(largest, options, tracer.pacer), rays);
     vulkan::Buffer values(device, Tile::bytes(m.description(), largest.groups(), at_once),
                           vulkan::Memory::host);
+    std::optional<vulkan::Buffer> black;
+    if (batches.front().black) black.emplace(device, values.size(), vulkan::Memory::host);
     for (int first = 0; first < rays; first += at_once) {
       Tile tile{first, std::min(at_once, rays - first), values};
       for (std::size_t b = 0; b < batches.size(); ++b) {
         m.trace(tracer, batches[b].scene, options, tile);
+        const Batch& batch = batches[b];
+        if (batch.black) m.trace(tracer, *batch.black, options, {first, tile.rays, *black});
+        if (batch.scene.ground_km()) {
+          surface.light(on_ground, batch.scene, left_by(m, batch.scene.problem()), tile,
+                        black ? *black : values);
+        }
         visit(b, tile);
       }
       tracer.watch.progress(static_cast<double>(tile.first_ray + tile.rays) / rays);
     }
+    tracer.device_ms += on_ground.device_ms;
   }
 
   Traced trace_rays(const Problem& problem, const Rays& rays, const std::string& method_name,
@@ -279,7 +354,7 @@ struct Engine::Parts {
     traced.transmittance.assign(directions.size(), dark);
     bool random = method(method_name).description().random;
     if (random) traced.standard_error.assign(directions.size(), dark);
-    std::vector<Batch> batches = upload(problem, rays);
+    std::vector<Batch> batches = upload_with_ground(problem, rays, method_name, watch);
     Tracer tracer = this->tracer(method_name, watch);
     auto read = [&](std::size_t b, const Tile& tile) {
       const Batch& batch = batches[b];
@@ -321,7 +396,8 @@ struct Engine::Parts {
       }
       return seen;
     };
-    return make_plan({scene, rays, methods, profile, probe, parts});
+    return make_plan({scene, rays, methods, profile, probe,
+                      parts || has_heights(make_problem(scene, some_wavelengths_of(scene)))});
   }
 
   /// Of frames that are nearly alike one is planned for all, unless this very one is to be
@@ -403,7 +479,8 @@ Rays rays_of(const Picture* picture) {
 void Engine::Parts::trace_frame(const Problem& problem, const Plan& plan,
                                 const std::vector<PlaneGroup>& groups, const Picture* picture,
                                 const Watch& watch, Frame& frame, FrameStore& store) {
-  std::vector<Batch> batches = upload(problem, rays_of(picture));
+  std::vector<Batch> batches =
+      upload_with_ground(problem, rays_of(picture), plan.method, watch);
   std::vector<Compositor::Job> jobs;
   for (const Batch& batch : batches) {
     jobs.push_back(compositor.prepare(device, batch.scene, groups, batch.first,
@@ -424,8 +501,9 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
                             FrameStore& store) {
   std::vector<double> wavelengths = wavelengths_of_transmittance(scene);
   std::vector<UploadedScene> scenes;
-  for (Batch& batch :
-       upload(make_problem(scene, wavelengths), rays_of(&picture), transmittance_wavelengths)) {
+  Problem problem = make_problem(scene, wavelengths);
+  Picture shown = before_heights(problem, picture, watch);
+  for (Batch& batch : upload(problem, rays_of(&shown), transmittance_wavelengths)) {
     scenes.push_back(std::move(batch.scene));
   }
   std::array<double, 3> luminance{1. / 3, 1. / 3, 1. / 3};
@@ -433,8 +511,8 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
     std::ranges::copy_n(xyz_from_rec709().begin() + 3, 3, luminance.begin());
   }
   Tracer tracer = this->tracer("overlay", watch);
-  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)),
-                     picture, groups, luminance, store);
+  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)), shown,
+                     groups, luminance, store);
   frame.render_ms += tracer.device_ms;
 }
 
@@ -747,7 +825,12 @@ std::vector<DeviceDescription> list_devices(const EngineOptions& options) {
 
 std::string atmosphere_key(const Scene& scene) {
   nlohmann::json document = canonical(scene);
-  nlohmann::json air{document["planet"], document["atmosphere"], document["spectrum"]};
+  nlohmann::json& planet = document["planet"];
+  // Of a ground that differs from place to place tables know the mean.
+  if (auto ground = make_ground(scene, some_wavelengths_of(scene))) {
+    planet = {{"radius_km", scene.planet.radius_km}, {"ground_albedo", mean_albedo(*ground)}};
+  }
+  nlohmann::json air{planet, document["atmosphere"], document["spectrum"]};
   return fingerprint(air.dump());
 }
 

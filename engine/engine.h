@@ -131,6 +131,7 @@ struct SceneTraits {
   double thickness_km = 0;      ///< of the air
   double sun_diameter_deg = 0;  ///< of the disc that light comes from; 0 a point
   int scattering_orders = -1;   ///< -1 all
+  bool varied_ground = false;   ///< differs from place to place
 };
 struct MethodLimit {
   std::string words;

@@ -197,6 +197,17 @@ std::array<double, 3> direction_to(const Sun& sun) {
           std::sin(elevation)};
 }
 
+/// Heights are in the air that there is.
+void check_relief(const Scene& scene, const Ground& ground) {
+  if (ground.relief_km < scene.atmosphere.thickness_km) return;
+  const bool map = std::holds_alternative<MapSurface>(scene.planet.surface);
+  throw SceneError(map ? "/planet/surface/height_km" : "/planet/surface/relief_km",
+                   nlohmann::json(ground.relief_km).dump(),
+                   "less than atmosphere.thickness_km, " +
+                       nlohmann::json(scene.atmosphere.thickness_km).dump(),
+                   "the ground stands out of the air");
+}
+
 // ---- Output
 // -------------------------------------------------------------------------------------
 
@@ -310,6 +321,11 @@ Problem make_problem(const Scene& scene, const std::vector<double>& wavelengths_
     problem.limb_darkening_exponent.push_back(
         scene.sun.limb_darkening ? limb_darkening_exponent(l) : 0);
   problem.camera = scene.camera;
+  if ((problem.ground = make_ground(scene, wavelengths_nm))) {
+    check_relief(scene, *problem.ground);
+    problem.ground_albedo = mean_albedo(*problem.ground);
+    problem.camera.altitude_km += height_at_foot_km(*problem.ground, problem.planet_radius_km);
+  }
   problem.width = scene.image.width;
   problem.height = scene.image.height;
   problem.show = scene.image.show;
@@ -351,6 +367,7 @@ Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t co
   };
   keep(part.wavelengths_nm);
   keep(part.ground_albedo);
+  if (part.ground) std::ranges::for_each(part.ground->albedo, keep);
   keep(part.limb_darkening_exponent);
   for (Medium& medium : part.media) {
     keep(medium.scattering_per_km);

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/surface/ground.h"
 
 namespace cyanometer {
 
@@ -37,7 +39,8 @@ struct Problem {
   double planet_radius_km = 0;
   double thickness_km = 0;
   std::vector<double> wavelengths_nm;
-  std::vector<double> ground_albedo;  ///< by wavelength
+  std::vector<double> ground_albedo;  ///< by wavelength; the mean where it is not uniform
+  std::optional<Ground> ground;       ///< none where it is the same everywhere
   std::vector<Medium> media;          ///< none that neither scatters nor absorbs
 
   std::array<double, 3> sun_direction{};  ///< unit; at the foot point: x east, y north, z up
@@ -48,11 +51,16 @@ struct Problem {
   /// wavelength [Hestroffer and Magnan 1998]; 0 is an even disc.
   std::vector<double> limb_darkening_exponent;
 
-  Camera camera;
+  Camera camera;  ///< its altitude is above the sphere, not above what the ground's heights are
   int width = 0, height = 0;
   Show show;
   int scattering_orders = 0;  ///< 0 is the sun and the stars alone; -1 all
 };
+
+/// Whether the ground has heights, which end rays in the air.
+inline bool has_heights(const Problem& problem) {
+  return problem.ground && problem.ground->relief_km > 0;
+}
 
 /// The same problem at `count` of its wavelengths, from the one with index `first` on.
 Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t count);

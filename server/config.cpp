@@ -47,6 +47,8 @@ const std::vector<Setting>& settings() {
        &Config::frame_memory_mb, 1, 1e6},
       {"cache-mb", "MiB of all tables and frames kept between requests", &Config::cache_mb, 0,
        1e6},
+      {"surfaces", "folder of images that scenes may name in planet.surface; empty: none may",
+       &Config::surfaces},
       {"token",
        "secret that requests bring as `Authorization: Bearer ...`, but for healthz and readyz; "
        "empty asks for none (better set in the environment, where process lists do not show "

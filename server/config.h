@@ -27,6 +27,7 @@ struct Config {
   double max_body_mb = 64;
   double frame_memory_mb = 2048;
   double cache_mb = 256;
+  std::string surfaces;
   std::string token;
   std::string cors_origin;
   std::string log_level = "info";
@@ -36,9 +37,14 @@ struct Config {
   EngineFaults faults = {};
 
   std::size_t body_bytes() const { return static_cast<std::size_t>(max_body_mb * 1048576); }
-  /// Of what is kept between requests, frames get a quarter and tables the rest.
+  /// Of what is kept between requests, frames get a quarter, the images of surfaces an eighth,
+  /// and tables (with those images on the device) the rest.
   std::size_t kept_frame_bytes() const { return static_cast<std::size_t>(cache_mb * 262144); }
-  std::size_t table_bytes() const { return 3 * kept_frame_bytes(); }
+  std::size_t surface_bytes() const { return kept_frame_bytes() / 2; }
+  std::size_t table_bytes() const {
+    return 4 * kept_frame_bytes() - kept_frame_bytes() -
+           (surfaces.empty() ? 0 : surface_bytes());
+  }
   std::size_t frame_bytes() const {
     return static_cast<std::size_t>(frame_memory_mb * 1048576);
   }

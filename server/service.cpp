@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/cache_folder.h"
+#include "engine/surface/maps.h"
 #include "server/http/problem.h"
 #include "server/log.h"
 
@@ -22,7 +23,9 @@ Service::Service(const Config& config_)
              .log = [](const std::string& event) { log_event(spdlog::level::err, event); },
              .warm = config_.warm,
              .faults = config_.faults}),
-      frames(queue, config_.kept_frame_bytes()) {}
+      frames(queue, config_.kept_frame_bytes()) {
+  use_surfaces(config.surfaces, config.surface_bytes());
+}
 
 namespace {
 

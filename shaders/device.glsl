@@ -54,9 +54,12 @@ layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_va
 layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
 layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
 layout(std430, binding = 8) restrict readonly buffer QuadratureBuffer { Vec2 quadrature[]; };
+// How the ground differs from place to place (surface/data.glsl).
+layout(std430, binding = 9) restrict readonly buffer SurfaceBuffer { Vec4 surface_values[]; };
 // Where rays end, km from the camera: one for all, or one a ray.
-layout(std430, binding = 9) restrict readonly buffer EndBuffer { Real ends_km[]; };
-#define OWN 10  // a shader's own bindings: OWN, OWN + 1, ...
+layout(std430, binding = 10) restrict readonly buffer EndBuffer { Real ends_km[]; };
+layout(std430, binding = 11) restrict readonly buffer TexelBuffer { uint surface_texels[]; };  // of a map
+#define OWN 12  // a shader's own bindings: OWN, OWN + 1, ...
 
 // What is used in loops is read once into registers: on software devices a load from a buffer costs more
 // than an exponential. A shader's main() begins with load_scene(), and load_media() where it marches.
@@ -82,6 +85,7 @@ void load_media() {
 #define scattering(c, group) scattering_[(c) * GROUPS + (group)]
 #define depolarisation(c, group) spectra[(4 + 3 * (c)) * GROUPS + (group)]
 #define ground_albedo(group) spectra[group]
+#define surface_texel(i) surface_texels[i]
 #define limb_exponent(group) spectra[GROUPS + (group)]
 #define sun_offset(k) sun_points[(k) * (GROUPS + 1)].xyz
 #define sun_weight(k, group) sun_points[(k) * (GROUPS + 1) + 1 + (group)]

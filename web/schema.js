@@ -100,9 +100,8 @@ export class Schema {
   initial(node, like) {
     const form = this.forms(node)[0];
     const size = magnitude(like);
-    if (size === undefined && form.default !== undefined && this.fits(form, form.default)) {
-      return form.default;
-    }
+    const usual = form.default ?? this.follow(node).default;
+    if (size === undefined && usual !== undefined && this.fits(node, usual)) return usual;
     if ('const' in form) return form.const;
     if (form.enum) return form.enum[0];
     if (form.type === 'boolean') return false;

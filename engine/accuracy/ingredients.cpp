@@ -119,6 +119,9 @@ class Explainer {
     add_without("curvature", flat(whole_));
     Scene black = whole_;
     black.planet.ground_albedo = 0.0;
+    if (auto* surface = std::get_if<ProceduralSurface>(&black.planet.surface)) {
+      surface->sea = surface->plants = surface->sand = surface->rock = surface->ice = 0.0;
+    }
     add_without("ground", {black});
     if (whole_.spectrum.colour == Colour::cie) {
       open_wavelengths() ? numbers_of_wavelengths() : given_wavelengths();

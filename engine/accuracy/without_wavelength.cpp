@@ -53,6 +53,10 @@ Scene without_wavelength(const Scene& scene, std::size_t index) {
   Shorten shorten{index};
   erase(result.spectrum.wavelengths_nm, index);
   shorten(result.planet.ground_albedo);
+  if (auto* s = std::get_if<ProceduralSurface>(&result.planet.surface)) {
+    for (Spectrum* matter : {&s->sea, &s->plants, &s->sand, &s->rock, &s->ice})
+      shorten(*matter);
+  }
   std::visit(shorten, result.sun.irradiance);
   for (auto& [name, constituent] : result.atmosphere.constituents) {
     std::visit(shorten, constituent.matter);

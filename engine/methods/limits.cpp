@@ -31,7 +31,8 @@ SceneTraits traits_of(const Problem& problem) {
                      .depth = largest_depth(problem),
                      .altitude_km = problem.camera.altitude_km,
                      .thickness_km = problem.thickness_km,
-                     .scattering_orders = problem.scattering_orders};
+                     .scattering_orders = problem.scattering_orders,
+                     .varied_ground = problem.ground.has_value()};
   if (problem.sun_disc_samples > 1)
     traits.sun_diameter_deg = 2 * problem.sun_angular_radius_rad * degree;
   for (const Medium& medium : problem.media) add_particles(medium, problem, traits);

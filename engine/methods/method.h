@@ -21,9 +21,11 @@ namespace cyanometer {
 using MethodOptions = std::map<std::string, double>;
 
 /// What a method leaves of each ray of a tile: inscattered radiance, ground radiance (as seen,
-/// both per unit irradiance, 1/sr), transmittance to ground or space, and where the method is
-/// random the standard error of the two radiances' sum, in this order, each as groups of four
-/// wavelengths, each of those a plane of `rays` vec4 (shaders/device.glsl).
+/// both per unit irradiance, 1/sr; where the ground is not the same everywhere, the sky's
+/// irradiance on it, of which surface/surface_pass.h makes radiance), transmittance to ground
+/// or space, and where the method is random the standard error of the two radiances' sum, in
+/// this order, each as groups of four wavelengths, each of those a plane of `rays` vec4
+/// (shaders/device.glsl).
 struct Tile {
   static std::size_t bytes(const MethodDescription& method, int groups, int rays) {
     int quantities = method.random ? 4 : 3;
@@ -64,6 +66,9 @@ class Method {
   /// tracer's cache. No dispatch is longer than the pacer allows.
   virtual void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
                      const Tile& tile) = 0;
+  /// Whether it leaves the ground of a problem whose ground is not the same everywhere as the
+  /// camera sees it, but for the sun's own light, and not its irradiance.
+  virtual bool reflects() const { return false; }
   /// The tables that a frame of the scene is made from, to be looked at; none where the method
   /// has none or shows none.
   virtual std::vector<Panels> tables(Tracer& tracer, const UploadedScene& scene,

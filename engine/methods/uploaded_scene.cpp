@@ -15,7 +15,7 @@ std::vector<Bytes> arrays(const Physics<float>& p) {
   return {vulkan::bytes_of(p.scene), bytes(p.media),        bytes(p.spectra),
           bytes(p.profile_nodes),    bytes(p.phase_angles), bytes(p.phase_values),
           bytes(p.sun_points),       bytes(p.directions),   bytes(p.quadrature),
-          bytes(p.ends_km)};
+          bytes(p.surface_values),   bytes(p.ends_km)};
 }
 
 /// One buffer for all arrays: where each begins, and its size. Empty ones keep room for one
@@ -90,16 +90,19 @@ bool RayEnds::all(int first, int count) const {
 
 UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
                              const std::vector<glm::dvec3>& directions,
-                             std::shared_ptr<const RayEnds> ends)
-    : UploadedScene(device, problem, packed(problem, directions, ends.get()), ends) {}
+                             std::shared_ptr<const RayEnds> ends, GroundBuffers ground)
+    : UploadedScene(device, problem, packed(problem, directions, ends.get()), ends,
+                    std::move(ground)) {}
 
 UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
-                             const Physics<float>& physics, std::shared_ptr<const RayEnds> ends)
+                             const Physics<float>& physics, std::shared_ptr<const RayEnds> ends,
+                             GroundBuffers ground)
     : problem_(problem),
       air_key_(key_of_air(physics)),
       parts_(lay_out(arrays(physics), device.limits().storage_alignment)),
       buffer_(device, parts_.back().first + parts_.back().second, vulkan::Memory::device),
       ends_(std::move(ends)),
+      ground_(std::move(ground)),
       constants_(specialization(physics)),
       groups_(physics.GROUPS),
       media_(physics.MEDIA),
@@ -120,6 +123,11 @@ std::vector<vulkan::Binding> UploadedScene::bind(
   if (ends_) {
     all.pop_back();
     all.emplace_back(ends_->buffer());
+  }
+  if (ground_.texels) {
+    all.emplace_back(*ground_.texels);
+  } else {
+    all.push_back(all.front());
   }
   for (const vulkan::Binding& binding : own) all.push_back(binding);
   return all;

@@ -35,15 +35,22 @@ class RayEnds {
   vulkan::Buffer buffer_;
 };
 
+/// Of a ground that differs from place to place; null where there is none.
+struct GroundBuffers {
+  std::shared_ptr<const vulkan::Buffer> texels;        ///< of a map
+  std::shared_ptr<const vulkan::Buffer> distances_km;  ///< how far it is along each ray
+};
+
 class UploadedScene {
  public:
-  static constexpr int bindings = 10;  ///< 0 to 9 of shaders/device.glsl
+  static constexpr int bindings = 12;  ///< 0 to 11 of shaders/device.glsl
 
   /// The rays are `directions` (unit; x east, y north, z up at the foot point), or the camera's
-  /// where there are none. `ends` is theirs, none where all go on as far as they can.
+  /// where there are none. `ends` is theirs, none where all go on as far as they can;
+  /// `ground` belongs to a ground that is not the same everywhere.
   UploadedScene(vulkan::Device& device, const Problem& problem,
                 const std::vector<glm::dvec3>& directions = {},
-                std::shared_ptr<const RayEnds> ends = nullptr);
+                std::shared_ptr<const RayEnds> ends = nullptr, GroundBuffers ground = {});
 
   const Problem& problem() const { return problem_; }
   /// All that the air and the ground are, as bytes: with equal keys, tables that depend on
@@ -61,18 +68,22 @@ class UploadedScene {
   bool any_ends(int first, int count) const { return ends_ && ends_->any(first, count); }
   bool all_end(int first, int count) const { return ends_ && ends_->all(first, count); }
 
+  /// Null where the ground is the same everywhere.
+  const vulkan::Buffer* ground_km() const { return ground_.distances_km.get(); }
+
   /// The scene's bindings followed by a kernel's own.
   std::vector<vulkan::Binding> bind(std::initializer_list<vulkan::Binding> own) const;
 
  private:
   UploadedScene(vulkan::Device& device, const Problem& problem, const Physics<float>& physics,
-                std::shared_ptr<const RayEnds> ends);
+                std::shared_ptr<const RayEnds> ends, GroundBuffers ground);
 
   Problem problem_;
   std::string air_key_;
   std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
   vulkan::Buffer buffer_;
   std::shared_ptr<const RayEnds> ends_;
+  GroundBuffers ground_;
   vulkan::Specialization constants_;
   int groups_, media_, disc_points_, density_iterations_, profile_nodes_, kinks_;
 };

@@ -7,6 +7,7 @@
 #include "engine/gauss_legendre.h"
 #include "engine/optics/profile.h"
 #include "engine/physics/kinks.h"
+#include "engine/surface/pack_ground.h"
 
 namespace cyanometer {
 namespace {
@@ -156,6 +157,18 @@ void append_quadrature(Physics<Real>& p, const Problem& problem) {
   p.scene.view_scale_km = static_cast<Real>(view_scale_km(problem));
 }
 
+/// The angle that a pixel spans; rays that are given one by one are as wide.
+template <class Real>
+double pixel_rad(const Physics<Real>& p) {
+  Physics<double> camera;
+  camera.scene.tan_half_fov = p.scene.tan_half_fov;
+  camera.scene.half_fov_rad = p.scene.half_fov_rad;
+  camera.scene.width = p.scene.width;
+  camera.scene.height = p.scene.height;
+  camera.PROJECTION = p.PROJECTION;
+  return camera.pixel_angle();
+}
+
 template <class Real>
 void set_camera(Physics<Real>& p, const Problem& problem) {
   using Vec4 = typename Physics<Real>::Vec4;
@@ -178,6 +191,7 @@ void set_camera(Physics<Real>& p, const Problem& problem) {
   p.scene.width = problem.width;
   p.scene.height = problem.height;
   p.PROJECTION = static_cast<int>(camera.projection);
+  p.scene.pixel_rad = static_cast<Real>(pixel_rad(p));
 }
 
 /// Points spread evenly over the disc on Vogel's spiral, each with its share of the light.
@@ -252,6 +266,11 @@ Physics<Real> pack(const Problem& problem) {
   append_media(p, problem);
   append_quadrature(p, problem);
   set_camera(p, problem);
+  if (problem.ground) {
+    p.scene.surface = p.SURFACE_KIND = problem.ground->kind;
+    p.surface_values = packed_ground<Real>(*problem.ground);
+    if (problem.ground->images) p.surface_texels = problem.ground->images->texels;
+  }
   p.scene.ends = static_cast<int>(p.ends_km.size());
   set_sun(p, problem);
   return p;

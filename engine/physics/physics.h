@@ -4,17 +4,20 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 namespace cyanometer::physics {
 
 using glm::abs;
+using glm::asin;
 using glm::asinh;
 using glm::atan;
 using glm::ceil;
 using glm::clamp;
 using glm::cos;
 using glm::cosh;
+using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::floor;
@@ -30,6 +33,7 @@ using glm::sin;
 using glm::sinh;
 using glm::sqrt;
 using glm::tan;
+using glm::uintBitsToFloat;
 
 #define CONSTANT static constexpr
 #define UNROLL
@@ -76,6 +80,9 @@ struct Physics {
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
   std::vector<Vec2> quadrature;
+  int SURFACE_KIND = 0;  ///< 0 too where a kernel has nothing to do with it
+  std::vector<Vec4> surface_values;
+  std::shared_ptr<const std::vector<Uint>> surface_texels;  ///< of a map; null without one
   std::vector<Real> ends_km{Real(1e30)};
 
   // Of the method `path` alone (engine/methods/path/guide.h).
@@ -98,6 +105,7 @@ struct Physics {
   Vec4 ground_albedo(int group) const { return spectra[group]; }
   Vec4 limb_exponent(int group) const { return spectra[GROUPS + group]; }
   Vec3 sun_offset(int k) const { return Vec3(sun_points[k * (GROUPS + 1)]); }
+  Uint surface_texel(int i) const { return (*surface_texels)[i]; }
   Vec4 forward_gain(int, int) const { return Vec4(1); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
 
@@ -113,6 +121,15 @@ struct Physics {
 #include "shaders/physics/camera.glsl"
 #include "shaders/physics/shadow.glsl"
 #include "shaders/physics/transfer.glsl"
+#include "shaders/surface/data.glsl"
+#include "shaders/surface/noise.glsl"
+#include "shaders/surface/terrain.glsl"
+#include "shaders/surface/matter.glsl"
+#include "shaders/surface/map.glsl"
+#include "shaders/surface/look.glsl"
+#include "shaders/surface/sea.glsl"
+#include "shaders/surface/ray.glsl"
+#include "shaders/surface/light.glsl"
 #include "shaders/tables/optical_depth.glsl"
 #include "shaders/tables/stops.glsl"
 #include "shaders/methods/nishita.glsl"

@@ -28,4 +28,6 @@ Spelled<Spectrum> spectrum(double minimum, double maximum);
 
 Spelled<Constituent> constituent();
 
+Spelled<Surface> surface();
+
 }  // namespace cyanometer

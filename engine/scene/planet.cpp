@@ -2,16 +2,9 @@
 #include "engine/scene/members.h"
 #include "engine/scene/named_map.h"
 #include "engine/scene/presets.h"
-#include "engine/scene/variant_object.h"
 
 namespace cyanometer {
 namespace {
-
-Spelled<Surface> surface() {
-  return tagged<Surface>(
-      cases<Surface>().type("uniform", "The same everywhere", object<UniformSurface>()),
-      object<Surface>(), {"procedural", "map"});
-}
 
 Spelled<std::map<std::string, Constituent>> constituents() {
   return named_map(/*longest_name=*/32, /*most=*/32, constituent());
@@ -24,12 +17,15 @@ ObjectOf<Planet> planet_members() {
       Member("radius_km", &Planet::radius_km, number(1, 1e7), "Planet's radius",
              "Radius of the ground's sphere.")
           .log_slider(10, 1e5),
+      Member("surface", &Planet::surface, surface(), "Surface",
+             "How the ground differs from place to place."),
       Member("ground_albedo", &Planet::ground_albedo, spectrum(0, 1), "Ground albedo",
              "The share of the light that falls on the ground which it reflects, evenly to all "
-             "sides.")
-          .slider(0, 1, 0.01),
-      Member("surface", &Planet::surface, surface(), "Surface",
-             "How the ground differs from place to place."));
+             "sides; idle where the surface is not uniform.")
+          .slider(0, 1, 0.01)
+          .idle_unless([](const Planet& planet) {
+            return std::holds_alternative<UniformSurface>(planet.surface);
+          }));
 }
 
 ObjectOf<Atmosphere> atmosphere_members() {

@@ -169,11 +169,36 @@ struct Constituent {
 // ---- The parts of a scene
 // -----------------------------------------------------------------------
 
-/// The same albedo everywhere.
+/// `ground_albedo` everywhere.
 struct UniformSurface {
   bool operator==(const UniformSurface&) const = default;
 };
-using Surface = std::variant<UniformSurface>;
+/// Continents, seas, ice and mountains from a seed; what they are made of is a spectrum each.
+struct ProceduralSurface {
+  int seed = 1;
+  double sea_fraction = 0.7;     ///< of the planet's area
+  double relief_km = 0;          ///< of the highest peak that there could be
+  double roughness = 0.5;        ///< of coasts and mountains, 0 to 1
+  double ice_latitude_deg = 65;  ///< beyond which ice lies at the height of the sea
+  double vegetation = 0.5;       ///< 0 none, 1 wherever no ice and no sea is
+  double wind_m_per_s = 7;       ///< 12.5 m above the sea, which it roughens
+  Spectrum sea = sea_albedo();   ///< of the water below its surface, which mirrors besides
+  Spectrum plants = plants_albedo();
+  Spectrum sand = sand_albedo();
+  Spectrum rock = rock_albedo();
+  Spectrum ice = ice_albedo();
+  bool operator==(const ProceduralSurface&) const = default;
+
+  static Spectrum sea_albedo(), plants_albedo(), sand_albedo(), rock_albedo(), ice_albedo();
+};
+/// Images of the operator's folder, equirectangular, longitude 0 in the middle.
+struct MapSurface {
+  std::string albedo = "albedo.png";  ///< a file's name; its colours are reflectances
+  std::string height;                 ///< a file's name; empty: a smooth ball
+  double height_km = 8;               ///< of its white, above its black
+  bool operator==(const MapSurface&) const = default;
+};
+using Surface = std::variant<UniformSurface, ProceduralSurface, MapSurface>;
 
 struct Planet {
   double radius_km = 6360;

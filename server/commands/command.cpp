@@ -12,11 +12,15 @@
 
 #include "engine/cache_folder.h"
 #include "engine/scene/document.h"
+#include "engine/surface/maps.h"
 
 namespace cyanometer {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+
+/// Of images of surfaces, kept while a command runs.
+constexpr std::size_t surface_bytes = std::size_t{256} << 20;
 
 void say(const std::string& message) { std::cerr << "cyanometer: " << message << "\n"; }
 
@@ -37,6 +41,11 @@ int run_command(int count, char** arguments) {
   app.name("cyanometer");
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option_function<std::string>(
+         "--surfaces", [](const std::string& folder) { use_surfaces(folder, surface_bytes); },
+         "Folder of images that scenes may name in planet.surface; also CYANOMETER_SURFACES")
+      ->envname("CYANOMETER_SURFACES");
   app.footer("Exit codes: 0 done, 1 failed, 2 command line or scene refused, 130 cancelled.");
   for (const auto add :
        {add_serve, add_render, add_radiance, add_plan, add_compare, add_composite, add_explain,

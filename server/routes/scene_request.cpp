@@ -63,7 +63,10 @@ std::size_t frame_bytes(const Scene& scene) {
   const auto& layers = image.layers;
   const std::size_t copies =
       1 + layers.transmittance + layers.inscatter + layers.ground + layers.sun;
-  const std::size_t planes = channels * copies + encoding(image.format).displayed;
+  // How far the ground is along each ray, where that ends, and a copy of it.
+  const bool varied = !std::holds_alternative<UniformSurface>(scene.planet.surface);
+  const std::size_t planes =
+      channels * copies + encoding(image.format).displayed + (varied ? 3 : 0);
   return planes * sizeof(float) * static_cast<std::size_t>(image.width) *
          static_cast<std::size_t>(image.height);
 }

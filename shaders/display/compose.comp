@@ -37,7 +37,7 @@ void main() {
   Vec4 value = Vec4(0.0);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 inscatter = tile[(INSCATTER * GROUPS + g) * n + i];
-    Vec4 ground = hidden ? Vec4(0.0) : tile[(GROUND * GROUPS + g) * n + i];
+    Vec4 ground = hidden && scene.surface == 0 ? Vec4(0.0) : tile[(GROUND * GROUPS + g) * n + i];
     Vec4 transmittance = tile[(TRANSMITTANCE * GROUPS + g) * n + i];
     Vec4 sun = sky ? transmittance * disc_radiance(pixel.direction, camera, limb_exponent(g),
                                                    pixel_angle())

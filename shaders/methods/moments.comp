@@ -50,7 +50,7 @@ void main() {
   }
   Real from_km = push.first != 0 ? 0.0 : progress_km[i];
   march_towards(path, push.sun, push.view_nodes, push.pieces, from_km, inscatter);
-  if (push.first != 0) light_ground_from(path, push.sun, ground);
+  if (push.first != 0 && scene.surface == 0) light_ground_from(path, push.sun, ground);
   progress_km[i] = from_km;
 
   Real column[MEDIA_SIZE];
@@ -63,7 +63,7 @@ void main() {
     UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= view_share[c];
   }
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    if (push.last != 0) ground[g] = ground[g] * transmittance_of(column, g);
+    if (push.last != 0) ground[g] = ground_seen(ground[g], transmittance_of(column, g));
     tile[(INSCATTER * GROUPS + g) * n + i] = inscatter[g];
     tile[(GROUND * GROUPS + g) * n + i] = ground[g];
   }

@@ -39,6 +39,6 @@ void main() {
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= share_of_extinction(c);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     tile[(INSCATTER * GROUPS + g) * n + i] = inscatter[g];
-    tile[(GROUND * GROUPS + g) * n + i] += ground[g] * transmittance_of(column, g);
+    tile[(GROUND * GROUPS + g) * n + i] += ground_seen(ground[g], transmittance_of(column, g));
   }
 }

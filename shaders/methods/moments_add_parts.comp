@@ -9,7 +9,7 @@ layout(std430, binding = OWN + 3) restrict buffer TileBuffer { Vec4 tile[]; };
 
 layout(push_constant) uniform Push {
   MomentGrid grid;
-  int irradiance;      // idle
+  int irradiance;      // where it lies behind the moments
   int fine_suns;
   int elevations, azimuths;
   int first_ray;       // of the tile, in the frame
@@ -52,4 +52,9 @@ void main() {
     int to = (INSCATTER * GROUPS + g) * n + i;
     tile[to] = tile[to] + light * part_scattered(column, g);
   }
+  if (!ends_on_ground(path)) return;
+  Vec4 ground[GROUPS];
+  UNROLL for (int g = 0; g < GROUPS; ++g) ground[g] = Vec4(0.0);
+  add_sky_on_ground(path, ground);
+  UNROLL for (int g = 0; g < GROUPS; ++g) tile[(GROUND * GROUPS + g) * n + i] = ground[g];
 }

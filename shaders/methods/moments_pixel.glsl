@@ -35,6 +35,20 @@ Vec4 sky_value(SkyPlace place, int offset) {
              mix(sky[at + up], sky[at + up + SKY_VALUES], place.azimuth), place.elevation);
 }
 
+// What the ground makes of the diffuse light of all orders.
+void add_sky_on_ground(Path path, INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
+  Vec3 axis = sun_axis();
+  Vec3 position = path.start + path.direction * path.length_km;
+  Real node = node_of_sun(push.grid, sun_range(push.grid, 0.0), dot(position, axis) / length(position)) /
+              Real(push.grid.suns - 1) * Real(push.fine_suns - 1);
+  int s = min(int(node), push.fine_suns - 2);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    int at = push.irradiance + s * GROUPS + g;
+    Vec4 irradiance = light_of_logarithm(mix(moments[at], moments[at + GROUPS], node - Real(s)));
+    ground[g] = ground[g] + left_by_ground(irradiance, g);
+  }
+}
+
 void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
                        INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
   Vec3 axis = sun_axis();
@@ -50,14 +64,5 @@ void add_higher_orders(Path path, INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE),
       inscatter[g] = inscatter[g] + light;
     }
   }
-  if (path.meets_ground) {
-    Vec3 position = path.start + path.direction * path.length_km;
-    Real node = node_of_sun(push.grid, sun_range(push.grid, 0.0), dot(position, axis) / length(position)) /
-                Real(push.grid.suns - 1) * Real(push.fine_suns - 1);
-    int s = min(int(node), push.fine_suns - 2);
-    UNROLL for (int g = 0; g < GROUPS; ++g) {
-      int at = push.irradiance + s * GROUPS + g;
-      ground[g] = ground[g] + lambertian(g) * light_of_logarithm(mix(moments[at], moments[at + GROUPS], node - Real(s)));
-    }
-  }
+  if (path.meets_ground) add_sky_on_ground(path, ground);
 }

@@ -40,7 +40,9 @@ void main() {
     radiance[g] = fresh ? Vec4(0.0) : tile[(quantity * GROUPS + g) * n + i];
   }
   if (ground) {
-    light_ground(path, push.range, push.light_samples, light_column, radiance);
+    if (scene.surface == 0) {
+      light_ground(path, push.range, push.light_samples, light_column, radiance);
+    }
   } else {
     march_view(path, push.range, push.view_samples, push.light_samples, view_column,
                light_column, radiance);

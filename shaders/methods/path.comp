@@ -6,18 +6,25 @@
 layout(constant_id = 10) const int SEGMENTS = 8;
 // Whether proposals know where the light is.
 layout(constant_id = 11) const bool GUIDED = false;
+// What the ground is (surface/data.glsl).
+layout(constant_id = 12) const int SURFACE_KIND = 0;
 
 layout(std430, binding = OWN) restrict readonly buffer GuideBuffer { Real path_guide[]; };
 // By lane, between two dispatches: direction and altitude, sun and strength, then the throughput of every
-// group of wavelengths.
+// group of wavelengths; where the ground is not the same everywhere also two axes.
 layout(std430, binding = OWN + 1) restrict buffer WalkBuffer { Vec4 walks[]; };
 // By lane: walks done, vertices of this walk, whether its first one is on the ground.
 layout(std430, binding = OWN + 2) restrict buffer CountBuffer { ivec4 counts[]; };
 // By lane: sums over finished blocks and over the block in progress, each of inscatter and of ground.
 layout(std430, binding = OWN + 3) restrict buffer SumBuffer { Vec4 sums[]; };
 layout(std430, binding = OWN + 4) restrict buffer UnfinishedBuffer { uint unfinished; };  // lanes
+// km from the camera to the ground along each ray; idle where the ground is the same everywhere.
+layout(std430, binding = OWN + 5) restrict readonly buffer DistanceBuffer { Real distances_km[]; };
 
+#include "surface/surface.glsl"
 #include "methods/path.glsl"
+
+const bool SURFACE = SURFACE_KIND != SURFACE_UNIFORM;
 
 layout(push_constant) uniform Push {
   int first_ray;      // of the tile, in the frame
@@ -60,6 +67,14 @@ void main() {
   walk.strength = walks[lanes + lane].w;
   walk.vertices = count.y;
   bool ground_first = count.z != 0;
+  if (SURFACE) {
+    walk.foot_east = walks[(2 + GROUPS) * lanes + lane].xyz;
+    walk.foot_up = walks[(3 + GROUPS) * lanes + lane].xyz;
+  }
+  // 0 where the ray does not end on the ground.
+  Real ground_km = SURFACE ? distances_km[ray] : 0.0;
+  bool on_ground = SURFACE && ground_km < ENDLESS && end_of_ray(ray) >= ground_km * (1.0 - 1e-6);
+  Real width_km = on_ground ? max(pixel_width_km(ground_km), 1e-9) : 0.0;
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     throughput[g] = walks[(2 + g) * lanes + lane];
     if (fresh) {
@@ -79,7 +94,7 @@ void main() {
     if (walk.vertices == 0) walk = start_walk(path, stream, throughput);
     Vec4 radiance[GROUPS];
     UNROLL for (int g = 0; g < GROUPS; ++g) radiance[g] = Vec4(0.0);
-    bool goes_on = step_walk(walk, stream, push.orders, end_of_flight(path, walk), throughput,
+    bool goes_on = step_walk(walk, stream, push.orders, end_of_flight(path, walk), width_km, throughput,
                              radiance, ground_first);
     UNROLL for (int g = 0; g < GROUPS; ++g) {
       if (ground_first) {
@@ -104,6 +119,10 @@ void main() {
   if (count.x < walks_of_lane) atomicAdd(unfinished, 1u);
   walks[lane] = Vec4(walk.direction, walk.altitude_km);
   walks[lanes + lane] = Vec4(walk.sun, walk.strength);
+  if (SURFACE) {
+    walks[(2 + GROUPS) * lanes + lane] = Vec4(walk.foot_east, 0.0);
+    walks[(3 + GROUPS) * lanes + lane] = Vec4(walk.foot_up, 0.0);
+  }
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     walks[(2 + g) * lanes + lane] = throughput[g];
     sums[(2 * GROUPS + g) * lanes + lane] = sky[g];

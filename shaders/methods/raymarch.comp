@@ -1,6 +1,17 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "device.glsl"
+// What heights are of; 0 where there are none.
+layout(constant_id = 10) const int SURFACE_KIND = 0;
+#include "surface/surface.glsl"
+
+// Shadows of heights in the air, in less detail than on the ground: a node stands for kilometres.
+const Real SHADOW_DETAIL = 1e-4;  // of the planet's radius
+Real sun_in_air(Vec3 position, Real altitude_km, Vec3 to_sun) {
+  if (SURFACE_KIND == SURFACE_UNIFORM) return 1.0;
+  return sun_over_heights(position, altitude_km, to_sun, SHADOW_DETAIL * scene.planet_radius_km);
+}
+#define SUN_OVER_HEIGHTS(position, altitude_km, to_sun) sun_in_air(position, altitude_km, to_sun)
 #include "methods/raymarch.glsl"
 
 layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
@@ -34,7 +45,7 @@ void main() {
   }
   Real from_km = push.first != 0 ? 0.0 : progress_km[i];
   march_towards(path, push.sun, push.view_nodes, push.pieces, from_km, inscatter);
-  if (push.first != 0) light_ground_from(path, push.sun, ground);
+  if (push.first != 0 && scene.surface == 0) light_ground_from(path, push.sun, ground);
   progress_km[i] = from_km;
 
   Real column[MEDIA_SIZE];

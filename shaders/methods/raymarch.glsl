@@ -10,6 +10,12 @@
 #define VIEW_SHARE(c) 1.0
 #endif
 
+// The share of the sun that heights of the ground leave to the air at a point. A kernel that knows of heights
+// defines it; for others the planet's own shadow is all there is.
+#ifndef SUN_OVER_HEIGHTS
+#define SUN_OVER_HEIGHTS(position, altitude_km, to_sun) 1.0
+#endif
+
 // Optical depths over which the nodes next to a camera in dense air spread.
 CONSTANT Real VIEW_DEPTHS = 6.0;
 
@@ -137,8 +143,8 @@ void add_lit_piece(Path path, Piece piece, int sun, int view_nodes,
       scattering_towards(scattering_angle(ray.direction, path.direction), scattering_phase);
     }
     UNROLL for (int c = 0; c < MEDIA; ++c) column[c] += VIEW_SHARE(c) * to_camera[c];
-    add_scattered(column, density, scattering_phase, node.width_km * ray.irradiance, sun,
-                  inscatter);
+    Real light = ray.irradiance * SUN_OVER_HEIGHTS(position, h, ray.direction);
+    add_scattered(column, density, scattering_phase, node.width_km * light, sun, inscatter);
   }
 }
 

@@ -77,6 +77,9 @@ Real pixel_angle() {
 // A ray that nothing stands in the way of ends here or farther, km.
 CONSTANT Real ENDLESS = Real(1e30);
 
+// Whether a path ends on the ground, also where that has heights, which end a ray like an object.
+bool ends_on_ground(Path path) { return path.meets_ground || (path.cut && scene.surface != 0); }
+
 // Where a ray of the frame ends, km from the camera.
 Real end_of_ray(int ray) { return ends_km[min(ray, scene.ends - 1)]; }
 

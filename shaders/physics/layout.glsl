@@ -26,8 +26,8 @@ struct SceneData {
 
   Real view_scale_km;   // height over which what scatters thins out (raymarch.glsl)
   int ends;             // of rays: 1 for all, or one a ray (camera.glsl)
-  Real reserved_y;
-  Real reserved_z;
+  Real pixel_rad;       // angle that a pixel of the frame spans, near its middle
+  int surface;          // what the ground is (surface/data.glsl); 0 is the same everywhere
 };
 
 // One constituent; `a` and `b` by type of profile (profile.glsl), `g` by type of phase (phase.glsl).

@@ -21,6 +21,16 @@ Vec4 mean_transmittances(Vec4 depth) {
 // Radiance of the Lambertian ground under an irradiance of 1 on a horizontal plane, 1/sr.
 Vec4 lambertian(int group) { return ground_albedo(group) / PI; }
 
+// What methods leave of the light that falls on the ground: its radiance as it is seen through the air before it.
+// Where the ground differs from place to place it is the irradiance of a horizontal plane, the sun's own apart;
+// surface/surface_light.comp makes radiance of it.
+Vec4 left_by_ground(Vec4 irradiance, int group) {
+  return scene.surface != 0 ? irradiance : lambertian(group) * irradiance;
+}
+Vec4 ground_seen(Vec4 ground, Vec4 transmittance) {
+  return scene.surface != 0 ? ground : ground * transmittance;
+}
+
 // Radiance from one sample of the view ray under one sun, for columns to the camera and to the sun
 // together.
 void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_SIZE),

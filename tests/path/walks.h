@@ -27,7 +27,7 @@ class Walks {
     if (!p_.meets_planet(path)) return radiance[0];
     P::Walk walk = p_.start_walk(path, stream, throughput);
     bool ground_first = false;
-    while (p_.step_walk(walk, stream, orders_, p_.end_of_flight(path, walk), throughput,
+    while (p_.step_walk(walk, stream, orders_, p_.end_of_flight(path, walk), 0, throughput,
                         radiance, ground_first)) {
     }
     return radiance[0];

@@ -45,7 +45,8 @@ class RandomDocument {
     if (type == "array") return list(schema);
     if (type == "object") return object(schema);
     if (type == "null") return nullptr;
-    return "2024-06-20T18:30:00+02:00";  // the only free text is a time
+    if (schema.contains("pattern")) return "world.png";  // the only one
+    return "2024-06-20T18:30:00+02:00";                  // the only free text is a time
   }
   const Json& alternative(const Json& alternatives) {
     const Json& one = one_of(alternatives);

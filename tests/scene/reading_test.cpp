@@ -312,13 +312,6 @@ TEST(Reading, IdleMembersAreValidatedThenIgnored) {
 }
 
 TEST(Reading, WhatComesLaterIsRefusedByName) {
-  for (const Json& document : {with("/planet/surface", {{"type", "map"}}),
-                               with("/planet/surface/type", "procedural")}) {
-    const auto error = refusal(document);
-    ASSERT_TRUE(error);
-    EXPECT_EQ(error->pointer, "/planet/surface/type");
-    EXPECT_NE(std::string(error->what()).find("not there yet"), std::string::npos);
-  }
   for (const char* name : {"raymarch", "hillaire", "bruneton", "moments", "path"}) {
     if (std::ranges::find(methods(), name, &MethodDescription::name) != methods().end())
       continue;

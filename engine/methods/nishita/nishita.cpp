@@ -133,17 +133,19 @@ const MethodDescription& nishita_description() {
           "Single scattering by the midpoint rule, uniform in distance on the view ray and "
           "on a light ray from each of its samples. Simple, exact in the limit, slow.",
       .highest_order = 1,
-      .limits =
-          {{"Multiple scattering is left out: the blue of the sky is up to half too dark, "
-            "twilight and thick haze far too dark.",
-            {},
-            [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
-           {"Few samples lose thin layers near the ground: a yellow horizon, and in dense haze "
-            "nearly all light.",
-            {2, 3, 6, 13, 15, 18, 20, 22}},
-           {"The planet's shadow on a view ray converges slowly.",
-            {7, 9},
-            [](const SceneTraits& scene) { return scene.sun_deg < 2; }}},
+      .limits = {{"Multiple scattering is left out: the blue of the sky is up to half too "
+                  "dark, twilight and thick haze far too dark.",
+                  {},
+                  [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
+                 {"Few samples lose thin layers near the ground: a yellow horizon, and in "
+                  "dense haze nearly all light.",
+                  {2, 3, 6, 13, 15, 18, 20, 22}},
+                 {"The planet's shadow on a view ray converges slowly.",
+                  {7, 9},
+                  [](const SceneTraits& scene) { return scene.sun_deg < 2; }},
+                 {"Heights of the ground do not shade the air.",
+                  {},
+                  [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options = {{.name = "view_samples",
                    .title = "View samples",
                    .description = "Samples along each view ray.",

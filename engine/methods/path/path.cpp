@@ -55,10 +55,11 @@ class PathTracing final : public Method {
  public:
   explicit PathTracing(vulkan::Device& device)
       : first_order_(make_raymarch(device)),
-        walk_(device, path_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+        walk_(device, path_spirv, UploadedScene::bindings + 6, sizeof(Push)),
         finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(Push)) {}
 
   const MethodDescription& description() const override { return path_description(); }
+  bool reflects() const override { return true; }
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
@@ -136,7 +137,7 @@ class PathTracing final : public Method {
 
   Workspace workspace(vulkan::Device& device, const UploadedScene& scene, const Push& push) {
     std::size_t lanes = lanes_of(push), vec4 = 16, groups = scene.groups();
-    return {walks_.take(device, lanes * vec4 * (2 + groups)),
+    return {walks_.take(device, lanes * vec4 * (4 + groups)),
             counts_.take(device, lanes * vec4), sums_.take(device, lanes * vec4 * 4 * groups),
             coarse_.take(device, push.rays_in_tile * vec4 * 2 * groups),
             unfinished_.take(device, sizeof(std::uint32_t))};
@@ -159,10 +160,12 @@ class PathTracing final : public Method {
     bool guided = needs_light_guide(scene.problem());
     std::shared_ptr<const Guide> guide = guide_of(tracer, scene, guided);
     std::vector<vulkan::Binding> bindings =
-        scene.bind({guide->buffer, *work.walks, *work.counts, *work.sums, *work.unfinished});
+        scene.bind({guide->buffer, *work.walks, *work.counts, *work.sums, *work.unfinished,
+                    scene.ground_km() ? *scene.ground_km() : *work.unfinished});
     vulkan::Specialization constants = scene.constants();
     constants.push_back(segments);
     constants.push_back(guided);
+    constants.push_back(scene.problem().ground ? scene.problem().ground->kind : 0);
     std::int64_t lanes = lanes_of(push), walking = lanes;
     std::int64_t most = std::max<std::int64_t>(usual_loop_iterations / loops_of_step(scene), 1);
     while (walking > 0) {
@@ -203,7 +206,12 @@ const MethodDescription& path_description() {
                   {},
                   [](const SceneTraits& scene) {
                     return scene.sun_deg < -6 || scene.depth > 2;
-                  }}},
+                  }},
+                 {"Where the ground differs from place to place walks meet it as it is there; "
+                  "but for where the camera's own rays meet it, it is level and without "
+                  "detail. Heights shade the air in order one alone.",
+                  {},
+                  [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options = {{.name = "samples_per_pixel",
                    .title = "Walks",
                    .description = "Random walks for each pixel or direction.",

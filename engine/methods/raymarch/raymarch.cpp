@@ -21,14 +21,13 @@ class Raymarch final : public Method {
 
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
-    return rays * problem.sun_disc_samples *
-           static_cast<double>(cost(std::ssize(problem.media), options));
+    return rays * problem.sun_disc_samples * static_cast<double>(cost(problem, options));
   }
 
   int rays_at_once(const UploadedScene& scene, const MethodOptions& options,
                    const Pacer& pacer) const override {
     constexpr std::int64_t fewest = 64, most = 1 << 16;
-    std::int64_t fit = pacer.evaluations() / cost(scene.media(), options);
+    std::int64_t fit = pacer.evaluations() / cost(scene.problem(), options);
     return static_cast<int>(std::clamp(fit / 64 * 64, fewest, most));
   }
 
@@ -38,31 +37,41 @@ class Raymarch final : public Method {
     int pieces = march_pieces_at_once(scene, view_nodes);
     Scratch::Loan progress = progress_.take(tracer.device, sizeof(float) * tile.rays);
     std::vector<vulkan::Binding> bindings = scene.bind({tile.values, *progress});
+    vulkan::Specialization constants = scene.constants();
+    if (has_heights(scene.problem())) constants.push_back(scene.problem().ground->kind);
     for (int sun = 0; sun < scene.disc_points(); ++sun) {
       for (int done = 0; done < most_pieces; done += pieces) {
         bool last = sun + 1 == scene.disc_points() && done + pieces >= most_pieces;
         Push push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
-        tracer.commands.dispatch(kernel_, scene.constants(), bindings, vulkan::bytes_of(push),
+        tracer.commands.dispatch(kernel_, constants, bindings, vulkan::bytes_of(push),
                                  {vulkan::groups_for(tile.rays, 64)});
-        tracer.pacer.took(cost(scene.media(), options) * tile.rays, tracer.submit());
+        tracer.pacer.took(cost(scene.problem(), options) * tile.rays, tracer.submit());
       }
     }
   }
 
  private:
-  static std::int64_t cost(std::int64_t media, const MethodOptions& options) {
-    return march_evaluations(media, static_cast<int>(options.at("view_nodes")));
+  static std::int64_t cost(const Problem& problem, const MethodOptions& options) {
+    constexpr std::int64_t shadows_over_columns = 8;
+    return march_evaluations(std::ssize(problem.media),
+                             static_cast<int>(options.at("view_nodes"))) *
+           (has_heights(problem) ? shadows_over_columns : 1);
   }
 
   vulkan::Kernel kernel_;
   Scratch progress_;
 };
 
+/// Rounds of the loops that look for heights before the sun (shaders/surface/ray.glsl).
+int looks_from_node(const Problem& problem) {
+  return has_heights(problem) ? Physics<float>::MOST_SUN_STEPS * 12 : 0;
+}
+
 }  // namespace
 
 int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
   int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
-  int a_node = 2 + on_a_ray + 4 * scene.density_iterations();
+  int a_node = 2 + on_a_ray + 4 * scene.density_iterations() + looks_from_node(scene.problem());
   int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
   if (a_piece > most_loop_iterations) {
     throw OverLimit("/atmosphere/constituents",
@@ -89,14 +98,20 @@ const MethodDescription& raymarch_description() {
           "as "
           "the air thins out.",
       .highest_order = 1,
-      .limits =
-          {{"Multiple scattering is left out: the blue of the sky is up to half too dark, "
-            "twilight and thick haze far too dark.",
-            {},
-            [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
-           {"In haze of an optical depth of 1 a low sun needs more nodes than the default.",
-            {},
-            [](const SceneTraits& scene) { return scene.haze > 0.5 && scene.sun_deg < 5; }}},
+      .limits = {{"Multiple scattering is left out: the blue of the sky is up to half too "
+                  "dark, twilight and thick haze far too dark.",
+                  {},
+                  [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
+                 {"In haze of an optical depth of 1 a low sun needs more nodes than the "
+                  "default.",
+                  {},
+                  [](const SceneTraits& scene) {
+                    return scene.haze > 0.5 && scene.sun_deg < 5;
+                  }},
+                 {"Heights of the ground shade the air by their shape down to a ten-thousandth "
+                  "of the planet's radius.",
+                  {},
+                  [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options = {{.name = "view_nodes",
                    .title = "View nodes",
                    .description = "Gauss nodes on each smooth piece of a view ray.",

@@ -23,19 +23,19 @@ void main() {
   load_scene();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
-  if (path.cut || !meets_planet(path)) return;
-  ViewPosition at = view_position(path);
   Vec3 end = path.start + path.direction * path.length_km;
-  Real mu_s = dot(end, towards_sun()) / scene.planet_radius_km;
+  Real mu_s = dot(end, towards_sun()) / length(end);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    if (path.length_km > 0.0) {
-      int inscatter = (INSCATTER * GROUPS + g) * n + i;
-      tile[inscatter] = tile[inscatter] + scattered(at, g);
-    }
-    if (path.meets_ground) {
-      int ground = (GROUND * GROUPS + g) * n + i;
-      tile[ground] = tile[ground] + lambertian(g) * diffuse_irradiance(mu_s, g) *
-                                        tile[(TRANSMITTANCE * GROUPS + g) * n + i];
-    }
+    if (!ends_on_ground(path)) continue;
+    int ground = (GROUND * GROUPS + g) * n + i;
+    tile[ground] = tile[ground] +
+                   ground_seen(left_by_ground(diffuse_irradiance(mu_s, g), g),
+                               tile[(TRANSMITTANCE * GROUPS + g) * n + i]);
+  }
+  if (path.cut || !(path.length_km > 0.0)) return;
+  ViewPosition at = view_position(path);
+  UNROLL for (int g = 0; g < GROUPS; ++g) {
+    int inscatter = (INSCATTER * GROUPS + g) * n + i;
+    tile[inscatter] = tile[inscatter] + scattered(at, g);
   }
 }

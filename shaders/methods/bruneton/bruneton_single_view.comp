@@ -32,7 +32,7 @@ void main() {
     ground[g] = Vec4(0.0);
   }
   if (path.length_km > 0.0) add_single(path, inscatter);
-  light_ground_from(path, 0, ground);
+  if (scene.surface == 0) light_ground_from(path, 0, ground);
   Real column[MEDIA_SIZE];
   columns_along(path.altitude_km, path.mu, path.length_km, column);
   UNROLL for (int g = 0; g < GROUPS; ++g) {

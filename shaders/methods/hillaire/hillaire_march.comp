@@ -52,7 +52,7 @@ void main() {
     Vec4 transmittance = transmittance_of(column, g);
     Vec4 share = MANY_SUNS ? sun_weight(push.sun, g) : Vec4(1.0);
     Vec4 inscatter = radiance_of(column, once, further, scattering_phase, g) * share;
-    Vec4 reflected = ground[g] * transmittance * share;
+    Vec4 reflected = ground_seen(ground[g], transmittance) * share;
     if (push.sun > 0) {
       inscatter = inscatter + tile[(INSCATTER * GROUPS + g) * n + i];
       reflected = reflected + tile[(GROUND * GROUPS + g) * n + i];

@@ -65,7 +65,7 @@ void main() {
     Vec4 transmittance = transmittance_of(column, g);
     tile[(INSCATTER * GROUPS + g) * n + i] =
         radiance_of(column, once, further, scattering_phase, g);
-    tile[(GROUND * GROUPS + g) * n + i] = ground[g] * transmittance;
+    tile[(GROUND * GROUPS + g) * n + i] = ground_seen(ground[g], transmittance);
     tile[(TRANSMITTANCE * GROUPS + g) * n + i] = true_transmittance(column, g);
   }
 }

@@ -125,16 +125,16 @@ Vec4 radiance_of(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Vec4, once, MEDIA_GROUPS
 void light_ground(Path path, Vec3 offset, bool all_orders,
                   OUT_ARRAY(Vec4, radiance, GROUPS_SIZE)) {
   UNROLL for (int group = 0; group < GROUPS; ++group) radiance[group] = Vec4(0.0);
-  if (!path.meets_ground) return;
+  if (!ends_on_ground(path)) return;
   Vec4 light[GROUPS_SIZE];
   Vec3 position = path.start + path.direction * path.length_km;
   SunRay sun = sun_ray(position, offset);
   Real mu_sun = clamp(dot(position, sun.direction) / length(position), -1.0, 1.0);
   transmittance_to_sun(0.0, max(mu_sun, 0.0), light);
   UNROLL for (int group = 0; group < GROUPS; ++group) {
-    Vec4 irradiance = light[group] * max(mu_sun, 0.0);
+    Vec4 irradiance = light[group] * (scene.surface != 0 ? 0.0 : max(mu_sun, 0.0));
     if (all_orders) irradiance = irradiance + diffuse_irradiance(mu_sun, group);
-    radiance[group] = lambertian(group) * irradiance * sun.irradiance;
+    radiance[group] = left_by_ground(irradiance, group) * sun.irradiance;
   }
 }
 

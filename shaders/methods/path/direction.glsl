@@ -92,6 +92,7 @@ Real peak_density(Vec3 sun, Vec3 direction) {
 struct Scatterer {
   bool ground;
   Vec3 incoming;  // direction of the walk that arrives
+  GroundPlace place;  // of ground that is not the same everywhere
 };
 
 Vec3 choose_direction(Scatterer scatterer, Aim aim, Vec3 sun, ARRAY(Real, share, MEDIA_SIZE), Vec4 u) {

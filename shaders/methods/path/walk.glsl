@@ -7,6 +7,10 @@ struct Walk {
   Vec3 sun;         // to the sun: unit for parallel light, in km for a near one
   Real strength;    // throughput behind the first vertex, which roulette compares with
   int vertices;     // so far
+  // Two axes of the frame at the camera's foot point, as the walk's frame has them: where it is. Idle on ground
+  // that is the same everywhere.
+  Vec3 foot_east;
+  Vec3 foot_up;
 };
 
 struct Turn {
@@ -63,6 +67,12 @@ SunRay sun_from(Walk walk) {
   return ray;
 }
 
+// Of the walk, from the planet's centre, in the frame of the camera's foot point.
+Vec3 place_of(Walk walk) {
+  Vec3 foot_north = cross(walk.foot_up, walk.foot_east);
+  return normalize(Vec3(walk.foot_east.z, foot_north.z, walk.foot_up.z));
+}
+
 // At the start of a path, under one point of the sun.
 Walk walk_from(Path path, Vec3 sun_point) {
   Walk walk;
@@ -82,6 +92,8 @@ Walk walk_from(Path path, Vec3 sun_point) {
   Real scale = level > 0.0 ? sqrt(max((1.0 - path.mu) * (1.0 + path.mu), 0.0)) / level : 0.0;
   walk.direction = Vec3(direction.x * scale, direction.y * scale, path.mu);
   SunRay sun = sun_ray(path.start, sun_point);
+  walk.foot_east = turned(turn, Vec3(1.0, 0.0, 0.0));
+  walk.foot_up = turned(turn, Vec3(0.0, 0.0, 1.0));
   walk.sun = turned(turn, NEAR_SUN ? sun.direction * sun.distance_km : sun.direction);
   return walk;
 }

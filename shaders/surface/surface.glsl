@@ -1,0 +1,10 @@
+// All of the surface, in the order in which it builds up. Included after physics/physics.glsl.
+#include "surface/data.glsl"
+#include "surface/noise.glsl"
+#include "surface/terrain.glsl"
+#include "surface/matter.glsl"
+#include "surface/map.glsl"
+#include "surface/look.glsl"
+#include "surface/sea.glsl"
+#include "surface/ray.glsl"
+#include "surface/light.glsl"
