@@ -149,7 +149,7 @@ TEST(Proposals, DrawDistancesWithTheDensityThatTheyState) {
     for (double h : {0.0, 3.0, 60.0}) {
       for (double elevation_deg : {80.0, 4.0, -1.0, -4.0, -50.0}) {
         glm::dvec3 direction = oracle::towards(elevation_deg, 40);
-        P::Walk walk{h, direction, oracle::towards(sun_elevation_deg, 0), 0, 1};
+        P::Walk walk{h, direction, oracle::towards(sun_elevation_deg, 0), 0, 1, {}, {}};
         P::Leg leg = p.leg_from(h, direction.z, P::ENDLESS);
         double length_km = leg.back_km + leg.on_km;
         if (length_km <= 0) continue;
