@@ -140,6 +140,7 @@ StabilityRow thin_layers() {
                        "relative error of the optical depth of haze and of a slab of 0.2 "
                        "km; error of order one from 1 deg up",
                    .bound = 0.02,
+                   .stated_errors = 1,
                    .sweep = {0.2, 0.05},
                    .hardest = 0.05};
   row.scene = [](double x) {
@@ -232,6 +233,7 @@ StabilityRow pure_media() {
                        "relative difference of order one from its integral in double; "
                        "what nothing scatters is 0",
                    .bound = 1e-3,
+                   .stated_errors = 1,
                    .sweep = {0, 1, 2, 3, 4},
                    .hardest = 1};
   row.scene = [](double x) { return pure(static_cast<int>(x)); };
