@@ -113,7 +113,7 @@ StabilityRow truncated_orders() {
                        "series of their last; no order is brighter than the one before",
                    .bound = 0.01,
                    .many_orders = true,
-                   .stated_errors = 2,
+                   .stated_errors = 3,
                    .sweep = {-6, -9, -12, -15, -18},
                    .hardest = -9};
   row.scene = [](double x) {
