@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/image/panels.h"
 #include "tests/bruneton/bruneton_testing.h"
 #include "tests/bruneton/workshop.h"
-#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer {
 namespace {

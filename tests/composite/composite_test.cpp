@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/engine.h"
 #include "engine/optics/colour.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "engine/accuracy/adaptive.h"
 
 namespace cyanometer {
 namespace {

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 #include "engine/scene/presets.h"
-#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::oracle {

@@ -1,8 +1,8 @@
 // Columns along rays, by the shaders' quadrature, against the adaptive oracle's.
 #include <gtest/gtest.h>
 
-#include "engine/physics/pack.h"
 #include "engine/accuracy/adaptive.h"
+#include "engine/physics/pack.h"
 
 namespace cyanometer {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer {

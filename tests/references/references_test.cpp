@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/engine.h"
 #include "engine/scene/document.h"
 #include "tests/moments/reference.h"
-#include "engine/accuracy/adaptive.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer {

@@ -132,10 +132,10 @@ TEST(Stability, ACellIsItsWorstPoint) {
 TEST(Stability, TheTableAndThePictureSayIt) {
   std::string table = stability_table(some_findings()),
               picture = stability_svg(some_findings());
-  EXPECT_NE(
-      table.find("| 13 | Forward peaks | 2 % |  |  |  | **breaks at 0.95** | **20 % at 0.95** | "
-                 "reference |  |"),
-      std::string::npos)
+  EXPECT_NE(table.find(
+                "| 13 | Forward peaks | 2 % |  |  |  | **breaks at 0.95** | **20 % at 0.95** | "
+                "reference |  |"),
+            std::string::npos)
       << table;
   EXPECT_NE(picture.find("20 % at 0.95"), std::string::npos);
   EXPECT_NE(picture.find("a device"), std::string::npos);
