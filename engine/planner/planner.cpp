@@ -182,7 +182,7 @@ class Planner {
       if (in_.parts && random && best.method && each.ms > longest_walks_of_parts) break;
       bool in_time = !asked.max_ms || each.ms <= *asked.max_ms;
       if (best.method && !in_time) break;
-      Choice measured = judged(each);
+      Choice measured = judged_or_left(each);
       double error = std::hypot(measured.error, wavelengths_.error);
       if (asked.max_error && error <= *asked.max_error) return measured;
       // A random method that misses what was asked is long and no better to look at.
@@ -251,6 +251,16 @@ class Planner {
 
   Samples probe(const Method& method, const MethodOptions& options) const {
     return in_.probe(method.description().name, options, few_);
+  }
+
+  /// With its error; a setting that is over a limit of the device in this scene is none to
+  /// take.
+  Choice judged_or_left(const Choice& given) const {
+    try {
+      return judged(given);
+    } catch (const OverLimit&) {
+      return given;
+    }
   }
 
   /// With its error.

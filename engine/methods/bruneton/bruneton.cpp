@@ -123,7 +123,7 @@ MethodOption nodes(std::string name, std::string title, std::string description,
           .maximum = static_cast<double>(most),
           .default_value = static_cast<double>(usual),
           .integer = true,
-          .logarithmic = most > 4};
+          .logarithmic = least > 0 && most > 4};
 }
 
 MethodDescription describe() {
