@@ -120,13 +120,13 @@ class Drawing {
 
   void curves(double y) {
     svg_.text(margin, y, "Errors along one quantity of the scene", "title");
-    double x = margin + 360;
+    double x = margin + 400;
     for (const std::string& method : stability_subjects()) {
       svg_.out() << "<g class=\"" << method << "\">";
       svg_.mark(method, x, y - 4, 0.8);
       svg_.out() << "</g>\n";
       svg_.text(x + 9, y, method);
-      x += 84;
+      x += 82;
     }
     for (std::size_t i = 0; i < stability_curves().size(); ++i) {
       svg_.out() << "<g transform=\"translate("

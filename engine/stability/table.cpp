@@ -18,8 +18,8 @@ std::string sweep_of(const StabilityRow& row) {
 
 std::string figure(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, value >= 1e-3 ? "%.2g %%" : "%.0e",
-                value >= 1e-3 ? 100 * value : value);
+  const char* format = value >= 1 ? "%.0f %%" : value >= 1e-3 ? "%.2g %%" : "%.0e";
+  std::snprintf(text, sizeof text, format, value >= 1e-3 ? 100 * value : value);
   return value > 0 ? text : "0";
 }
 

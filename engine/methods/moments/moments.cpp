@@ -436,37 +436,35 @@ const MethodDescription& moments_description() {
       .summary =
           "Order one by a Gauss march on every ray; all others from small tables of the "
           "light's spherical-harmonic moments over altitude and the sun's elevation.",
-      .limits = {{"Forward peaks sharper than the moments resolve (g above 0.8 at an optical "
-                  "depth of 0.2 and more) blur the light next to a low sun and to the horizon.",
-                  {3, 13, 14},
-                  [](const SceneTraits& scene) {
-                    return scene.asymmetry > 0.85 ||
-                           (scene.asymmetry > 0.7 && scene.haze > 0.15);
-                  }},
-                 {"What is scattered more than once comes from the centre of the sun's disc.",
-                  {17},
-                  [](const SceneTraits& scene) { return scene.sun_diameter_deg > 5; }},
-                 {"Before objects near the camera the air's light is off by 4 to 7 % in haze "
-                  "at dusk.",
-                  {2},
-                  [](const SceneTraits& scene) {
-                    return scene.haze > 0.02 && scene.sun_deg < 5;
-                  }},
-                 {"Late twilight is off by 3 % at a sun of -9 deg and 8 % at -12, where a "
-                  "number of orders is asked for by as much again.",
-                  {7, 8},
-                  [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
-                 {"Thick air loses light: of an optical depth of 3 over white ground 2 %, of "
-                  "10 up to 12 %.",
-                  {12, 22},
-                  [](const SceneTraits& scene) { return scene.depth > 2; }},
-                 {"Order one, where it is read from a table, is off by 0.5 % for cameras above "
-                  "20 km, and by 1 % in twilight."},
-                 {"Where the ground differs from place to place, the light that it sends back "
-                  "into the air is that of its mean albedo, slopes and the sea see an even "
-                  "sky, and heights shade the air not at all.",
-                  {},
-                  [](const SceneTraits& scene) { return scene.varied_ground; }}},
+      .limits =
+          {{"Forward peaks sharper than the moments resolve (g above 0.8 at an optical "
+            "depth of 0.2 and more) blur the light next to a low sun and to the horizon.",
+            {3, 13, 14},
+            [](const SceneTraits& scene) {
+              return scene.asymmetry > 0.85 || (scene.asymmetry > 0.7 && scene.haze > 0.15);
+            }},
+           {"What is scattered more than once comes from the centre of the sun's disc.",
+            {17},
+            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 5; }},
+           {"Before objects near the camera the air's light is off by 4 to 7 % in haze "
+            "at dusk.",
+            {2},
+            [](const SceneTraits& scene) { return scene.haze > 0.02 && scene.sun_deg < 5; }},
+           {"Late twilight is off by 3 % at a sun of -9 deg and 8 % at -12, where a "
+            "number of orders is asked for by as much again.",
+            {7, 8},
+            [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
+           {"Thick air loses light: of an optical depth of 3 over white ground 6 %, of 10 a "
+            "tenth.",
+            {12},
+            [](const SceneTraits& scene) { return scene.depth > 2; }},
+           {"Order one, where it is read from a table, is off by 0.5 % for cameras above "
+            "20 km, and by 1 % in twilight."},
+           {"Where the ground differs from place to place, the light that it sends back "
+            "into the air is that of its mean albedo, slopes and the sea see an even "
+            "sky, and heights shade the air not at all.",
+            {},
+            [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options =
           {whole("degree", "Degree",
                  "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "
