@@ -15,7 +15,24 @@ namespace {
 struct Arguments {
   std::string output, device;
   int width = 1600, columns = 5;
+  std::vector<std::string> presets;
 };
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+/// Those that are asked for, in the order in which they are shown; all where none is.
+std::vector<Preset> presets_of(const Arguments& arguments) {
+  std::vector<Preset> shown = presets();
+  if (arguments.presets.empty()) return shown;
+  std::erase_if(shown, [&](const Preset& preset) {
+    return std::ranges::find(arguments.presets, preset.name) == arguments.presets.end();
+  });
+  return shown;
+}
 
 /// Pixels of the sheet, four bytes each.
 struct Sheet {
@@ -59,14 +76,15 @@ Scene thumbnail(const Preset& preset, int cell_width, int cell_height) {
 void contact_sheet(const Arguments& arguments) {
   const int cell = (arguments.width - gap) / arguments.columns - gap;
   const int cell_height = cell * 9 / 16;
-  const int count = static_cast<int>(presets().size());
+  const std::vector<Preset> shown = presets_of(arguments);
+  const int count = static_cast<int>(shown.size());
   const int rows = (count + arguments.columns - 1) / arguments.columns;
   const int pitch = cell_height + label + gap;
   Sheet sheet(arguments.width, rows * pitch + gap);
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
   for (int i = 0; i < count; ++i) {
-    const Preset& preset = presets()[static_cast<std::size_t>(i)];
+    const Preset& preset = shown[static_cast<std::size_t>(i)];
     const int x = gap + i % arguments.columns * (cell + gap);
     const int y = gap + i / arguments.columns * pitch;
     const Frame frame = engine.render(thumbnail(preset, cell, cell_height), watch);
@@ -97,6 +115,8 @@ void add_contact_sheet(CLI::App& app) {
   command->add_option("--columns", arguments->columns, "Pictures in a row")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
+  command->add_option("--preset", arguments->presets, "Only these; may be repeated")
+      ->check(CLI::IsMember(preset_names()));
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer("Example: cyanometer contact-sheet -o presets.png --width 1600");
   command->callback([arguments] { contact_sheet(*arguments); });
