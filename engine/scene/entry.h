@@ -210,7 +210,7 @@ class Constant final : public Entry<Owner> {
   std::vector<std::string> names() const override { return {label_.name}; }
   void read(Owner&, const Json& object, const At& at) const override {
     if (const Json* given = given_member(object, label_.name))
-      check_name(*given, {value_}, {}, at / label_.name);
+      check_name(*given, {value_}, at / label_.name);
   }
   void write(const Owner&, Json& object) const override { object[label_.name] = value_; }
   void describe(Json& schema, const Surroundings& around) const override {

@@ -10,7 +10,7 @@ namespace {
 Spelled<std::string> method_name() {
   std::vector<std::string> there{"auto"};
   for (const MethodDescription& method : methods()) there.push_back(method.name);
-  return one_name_of(there, {"nishita", "raymarch", "hillaire", "bruneton", "moments", "path"});
+  return one_name_of(there);
 }
 
 bool is_auto(const MethodChoice& method) { return method.name == "auto"; }

@@ -92,7 +92,7 @@ Json expanded(const Json& document) {
   const At root{reading, ""};
   if (!document.is_object()) refuse(root, document, "an object");
   const Json* preset = given_member(document, "preset");
-  if (preset) check_name(*preset, names(), {}, root / "preset");
+  if (preset) check_name(*preset, names(), root / "preset");
   return over(expanded_preset(preset ? preset->get<std::string>() : std::string(base_preset)),
               document);
 }

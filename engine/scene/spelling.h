@@ -45,9 +45,7 @@ Spelled<double> number(double minimum, double maximum);
 Spelled<int> integer(int minimum, int maximum);
 Spelled<bool> boolean();
 Spelled<std::string> text(std::string what);
-/// One of `names`; those of `later` are refused as not there yet.
-Spelled<std::string> one_name_of(std::vector<std::string> names,
-                                 std::vector<std::string> later = {});
+Spelled<std::string> one_name_of(std::vector<std::string> names);
 
 enum class Order { any, ascending, monotonic };
 Spelled<std::vector<double>> list(Spelled<double> element, std::size_t shortest,
@@ -55,8 +53,7 @@ Spelled<std::vector<double>> list(Spelled<double> element, std::size_t shortest,
 Spelled<std::array<double, 2>> pair(Spelled<double> first, Spelled<double> second);
 
 /// Refuses unless the value is one of the names.
-void check_name(const Json& given, const std::vector<std::string>& names,
-                const std::vector<std::string>& later, const At& at);
+void check_name(const Json& given, const std::vector<std::string>& names, const At& at);
 std::string names_in_words(const std::vector<std::string>& names);
 
 template <class T>
@@ -111,7 +108,7 @@ class Choice final : public Spelling<E> {
     for (const auto& [name, value] : choices_) names_.push_back(name);
   }
   E read(const Json& given, const At& at) const override {
-    check_name(given, names_, {}, at);
+    check_name(given, names_, at);
     for (const auto& [name, value] : choices_)
       if (given == name) return value;
     throw std::logic_error("a name without a choice");
@@ -149,7 +146,7 @@ class NameSet final : public Spelling<S> {
     S set;
     for (const auto& [name, flag] : flags_) set.*flag = false;
     for (std::size_t i = 0; i < given.size(); ++i) {
-      check_name(given[i], names_, {}, at / i);
+      check_name(given[i], names_, at / i);
       for (const auto& [name, flag] : flags_) {
         if (given[i] != name) continue;
         if (set.*flag) refuse(at / i, given[i], "a name that is not in the list yet");

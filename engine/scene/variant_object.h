@@ -134,15 +134,15 @@ class Forms final : public Entry<Owner> {
 template <class Owner>
 class Tagged final : public Spelling<Owner> {
  public:
-  Tagged(std::vector<Case<Owner>> cases, ObjectOf<Owner> common, std::vector<std::string> later)
-      : cases_(std::move(cases)), common_(std::move(common)), later_(std::move(later)) {
+  Tagged(std::vector<Case<Owner>> cases, ObjectOf<Owner> common)
+      : cases_(std::move(cases)), common_(std::move(common)) {
     for (const auto& one : cases_) types_.push_back(one.name);
   }
   Owner read(const Json& given, const At& at) const override {
     if (!given.is_object()) refuse(at, given, words());
     const Json* type = given_member(given, "type");
     if (!type) refuse_missing(at / "type", names_in_words(types_));
-    check_name(*type, types_, later_, at / "type");
+    check_name(*type, types_, at / "type");
     const Case<Owner>& one = *find(*type);
     refuse_unknown(given, names_of(one), at);
     Owner value{};
@@ -213,12 +213,12 @@ class Tagged final : public Spelling<Owner> {
 
   std::vector<Case<Owner>> cases_;
   ObjectOf<Owner> common_;
-  std::vector<std::string> types_, later_;
+  std::vector<std::string> types_;
 };
 template <class Owner>
-Spelled<Owner> tagged(std::vector<Case<Owner>> cases, ObjectOf<Owner> common = object<Owner>(),
-                      std::vector<std::string> later = {}) {
-  return std::make_shared<Tagged<Owner>>(std::move(cases), std::move(common), std::move(later));
+Spelled<Owner> tagged(std::vector<Case<Owner>> cases,
+                      ObjectOf<Owner> common = object<Owner>()) {
+  return std::make_shared<Tagged<Owner>>(std::move(cases), std::move(common));
 }
 
 }  // namespace cyanometer

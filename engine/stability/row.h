@@ -53,6 +53,8 @@ nlohmann::json empty_scene();
 nlohmann::json changed(nlohmann::json scene, const nlohmann::json& patch);
 /// How much two radiances differ beyond their noise, over the larger one.
 double apart(double a, double b, double noise);
+/// The largest that `of(ray, channel)` says, 0 at least.
+double largest(std::size_t rays, const std::function<double(std::size_t, std::size_t)>& of);
 /// What chance may add to a radiance in one of a million: five standard errors; 0 where none is
 /// stated.
 double noise_of(const Radiances& seen, std::size_t ray, std::size_t channel);

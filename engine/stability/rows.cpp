@@ -56,6 +56,15 @@ double noise_of(const Radiances& seen, std::size_t ray, std::size_t channel) {
   return seen.standard_error ? 5 * (*seen.standard_error)[ray][channel] : 0;
 }
 
+double largest(std::size_t rays, const std::function<double(std::size_t, std::size_t)>& of) {
+  double most = 0;
+  for (std::size_t ray = 0; ray < rays; ++ray) {
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      most = std::max(most, of(ray, channel));
+  }
+  return most;
+}
+
 Measured larger(const Measured& a, const Measured& b) { return b.least > a.least ? b : a; }
 
 }  // namespace cyanometer

@@ -155,14 +155,10 @@ StabilityRow thin_layers() {
     auto rays = fan({90, 40, 10, 3, 1}, {0, 60, 180});
     auto exact = trial.transmittance(scene(x), rays);
     Radiances seen = trial.look(scene(x), rays);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        worst = std::max(
-            worst, std::abs(std::log(seen.transmittance[i][c]) / std::log(exact[i][c]) - 1));
-      }
-    }
-    return larger(*trial.error(scene(x), rays), worst);
+    double depth = largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return std::abs(std::log(seen.transmittance[i][c]) / std::log(exact[i][c]) - 1);
+    });
+    return larger(*trial.error(scene(x), rays), depth);
   };
   return row;
 }
@@ -242,12 +238,9 @@ StabilityRow pure_media() {
     auto rays = fan({90, 20, 2, -2, -30}, {20, 150});
     auto exact = trial.first_order(scene, rays);
     Radiances seen = trial.look(scene, rays);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, apart(seen.radiance[i][c], exact[i][c], noise_of(seen, i, c)));
-    }
-    return Measured(worst);
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return apart(seen.radiance[i][c], exact[i][c], noise_of(seen, i, c));
+    });
   };
   return row;
 }
@@ -303,7 +296,7 @@ StabilityRow extremes() {
                        "transmittance",
                    .bound = 0,
                    .sweep = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
-                   .hardest = 1};
+                   .hardest = 4};
   row.scene = [](double x) { return extreme(static_cast<int>(x)); };
   row.measure = [](Trial& trial, double x) -> std::optional<Measured> {
     auto rays = fan({90, 30, 1, 0.01, -0.5, -40}, {0, 90, 180});

@@ -29,17 +29,13 @@ double horizon_deg(double altitude_km, double radius = radius_km) {
 Measured largest_jump(Trial& trial, const json& scene, const std::vector<Direction>& rows) {
   Radiances seen = trial.look(scene, rows);
   auto smooth = trial.smooth_truth(scene, rows);
-  double largest = 0;
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      double here = seen.radiance[i][c] / smooth[i][c],
-             next = seen.radiance[i + 1][c] / smooth[i + 1][c];
-      double noise =
-          noise_of(seen, i, c) / smooth[i][c] + noise_of(seen, i + 1, c) / smooth[i + 1][c];
-      largest = std::max(largest, apart(here, next, noise));
-    }
-  }
-  return largest;
+  return largest(rows.size() - 1, [&](std::size_t i, std::size_t c) {
+    double here = seen.radiance[i][c] / smooth[i][c],
+           next = seen.radiance[i + 1][c] / smooth[i + 1][c];
+    double noise =
+        noise_of(seen, i, c) / smooth[i][c] + noise_of(seen, i + 1, c) / smooth[i + 1][c];
+    return apart(here, next, noise);
+  });
 }
 
 StabilityRow horizon_seam() {
@@ -121,13 +117,10 @@ StabilityRow horizon_distance() {
                      horizon_deg(x) - 0.1},
                     {0, 70});
     Radiances seen = trial.look(scene(x), rays);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
       double exact = distance_to_ground(x, rays[i].elevation_deg);
-      for (double t : seen.transmittance[i])
-        worst = std::max(worst, std::abs(-std::log(t) / 0.02 / exact - 1));
-    }
-    return worst;
+      return std::abs(-std::log(seen.transmittance[i][c]) / 0.02 / exact - 1);
+    });
   };
   return row;
 }
@@ -137,17 +130,13 @@ double altitude_step(Trial& trial, const json& scene, double low_km, double high
                      const std::vector<Direction>& rays) {
   Radiances a = trial.look(seen_from(scene, low_km, 20), rays),
             b = trial.look(seen_from(scene, high_km, 20), rays);
-  double worst = 0, brightest = 0;
-  for (const auto& ray : a.radiance)
-    brightest = std::max(brightest, *std::ranges::max_element(ray));
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      double noise = noise_of(a, i, c) + noise_of(b, i, c);
-      double change = std::abs(a.radiance[i][c] - b.radiance[i][c]) - noise;
-      worst = std::max(worst, change / (a.radiance[i][c] + 1e-3 * brightest));
-    }
-  }
-  return worst;
+  double brightest =
+      largest(rays.size(), [&](std::size_t i, std::size_t c) { return a.radiance[i][c]; });
+  return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+    double noise = noise_of(a, i, c) + noise_of(b, i, c);
+    double change = std::abs(a.radiance[i][c] - b.radiance[i][c]) - noise;
+    return change / (a.radiance[i][c] + 1e-3 * brightest);
+  });
 }
 
 StabilityRow altitude_limits() {
@@ -216,15 +205,10 @@ StabilityRow faint_light() {
     auto rays = fan({0.02, 0.5, 1, 2, 5, 20, 90}, {40});
     auto exact = trial.transmittance(scene(x), rays);
     Radiances seen = trial.look(scene(x), rays);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        double depth = -std::log(exact[i][c]);
-        if (depth > 80) continue;
-        worst = std::max(worst, std::abs(-std::log(seen.transmittance[i][c]) / depth - 1));
-      }
-    }
-    return worst;
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      double depth = -std::log(exact[i][c]);
+      return depth > 80 ? 0 : std::abs(-std::log(seen.transmittance[i][c]) / depth - 1);
+    });
   };
   return row;
 }
@@ -250,14 +234,9 @@ StabilityRow degenerate_directions() {
     auto moved = fan({90 - 1e-6, -90 + 1e-6, 60, 10}, {0});
     for (std::size_t i = 0; i < 2; ++i) moved[i].azimuth_deg = 77;
     Radiances a = trial.look(scene, rays), b = trial.look(turned, moved);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        worst = std::max(worst, apart(a.radiance[i][c], b.radiance[i][c],
-                                      noise_of(a, i, c) + noise_of(b, i, c)));
-      }
-    }
-    return worst;
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return apart(a.radiance[i][c], b.radiance[i][c], noise_of(a, i, c) + noise_of(b, i, c));
+    });
   };
   return row;
 }
@@ -283,12 +262,9 @@ StabilityRow long_views() {
     auto rays = fan(elevations, {0, 130});
     auto exact = trial.transmittance(scene(x), rays);
     Radiances seen = trial.look(scene(x), rays);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, std::abs(seen.transmittance[i][c] - exact[i][c]));
-    }
-    return worst;
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return std::abs(seen.transmittance[i][c] - exact[i][c]);
+    });
   };
   return row;
 }

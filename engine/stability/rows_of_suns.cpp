@@ -249,14 +249,10 @@ StabilityRow large_suns() {
         }
       }
     }
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        worst = std::max(worst, apart(whole.radiance[i][c], mean[i][c],
-                                      noise_of(whole, i, c) + std::sqrt(noise[i][c])));
-      }
-    }
-    return Measured(worst);
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return apart(whole.radiance[i][c], mean[i][c],
+                   noise_of(whole, i, c) + std::sqrt(noise[i][c]));
+    });
   };
   return row;
 }

@@ -28,12 +28,9 @@ StabilityRow long_dispatches() {
     Engine hurried(options);
     Radiances cut = Trial(hurried, trial.method(), {}, trial.most_work(), trial.watch())
                         .look(scene(x), rays, usual.plan);
-    double worst = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, apart(usual.radiance[i][c], cut.radiance[i][c], 0));
-    }
-    return Measured(worst);
+    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return apart(usual.radiance[i][c], cut.radiance[i][c], 0);
+    });
   };
   return row;
 }

@@ -1,32 +1,15 @@
 // A daemon that is busy, away or of another opinion: clear words, the last picture, no reload.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
 
-import { Daemon, openBrowser, Person } from './person.js';
+import { visits } from './visits.js';
 
-let daemon;
-let browser;
-before(async () => {
-  daemon = await Daemon.start();
-  browser = await openBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await daemon?.stop();
-});
+const visit = visits();
 
-/** As a visit, where the browser itself notes the answers that `expected` matches. */
+/** Where the browser itself notes the answers that `expected` matches. */
 function trouble(sentence, expected, steps) {
-  test(sentence, async () => {
-    const person = await Person.arrive(browser, daemon, 'desktop');
-    try {
-      await steps(person, person.page, person.page.locator('#status'));
-      assert.deepEqual(person.complaints.filter((text) => !expected.test(text)), []);
-    } finally {
-      await person.leave();
-    }
-  });
+  visit('desktop', sentence,
+        (person, page, daemon) => steps(person, page, page.locator('#status'), daemon), { expected });
 }
 
 trouble('a busy daemon is asked again when it says', /503/, async (person, page, status) => {
@@ -48,7 +31,7 @@ trouble('a busy daemon is asked again when it says', /503/, async (person, page,
 });
 
 trouble('a daemon that went away comes back without a reload', /ERR_|Failed to fetch/,
-  async (person, page, status) => {
+  async (person, page, status, daemon) => {
     const first = await person.look();
     await daemon.stop();
     await person.type('sun.elevation_deg', '8');

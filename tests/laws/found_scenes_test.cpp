@@ -1,0 +1,100 @@
+// Scenes in which the stability suite found a method to break: each stays mended.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/scene/document.h"
+#include "engine/stability/row.h"
+
+namespace cyanometer {
+namespace {
+
+using nlohmann::json;
+
+Engine& device() {
+  static Engine engine;
+  return engine;
+}
+
+Trial trial(const char* method) {
+  static const Watch watch;
+  return Trial(device(), method, {}, 1 << 15, watch);
+}
+
+const StabilityRow& row(int number) {
+  return stability_rows().at(static_cast<std::size_t>(number - 1));
+}
+
+/// A radiance that is not finite throws.
+double measured(const char* method, int number, double trigger) {
+  Trial asked = trial(method);
+  return row(number).measure(asked, trigger)->value;
+}
+
+TEST(FoundScenes, TheHorizonSeenFromTheGroundItselfIsFinite) {
+  for (const char* method : {"raymarch", "hillaire", "bruneton", "moments"}) {
+    json scene = changed(plain_scene(), {{"camera", {{"altitude_km", 0}}}});
+    Trial asked = trial(method);
+    EXPECT_NO_THROW(asked.look(scene, fan({0.002, 0, -0.002, -0.1}, {30}))) << method;
+  }
+}
+
+TEST(FoundScenes, AirThatNothingPassesIsFinite) {
+  json scene = changed(plain_scene(), {{"spectrum", {{"wavelengths_nm", {10, 100, 200}}}}});
+  Trial asked = trial("hillaire");
+  EXPECT_NO_THROW(asked.look(scene, fan({90, 30, 0.5, -40}, {0, 180})));
+}
+
+TEST(FoundScenes, NoMoreComesOutOfPlaneThickAirThanWentIn) {
+  json scene = changed(row(12).scene(1), {{"camera", {{"altitude_km", 100}}}});
+  Trial asked = trial("hillaire");
+  Radiances seen = asked.look(scene, {{-90, 0}}, true);
+  double sunlight = std::sin(std::numbers::pi / 3);
+  for (double up : seen.irradiance->diffuse_up) EXPECT_NEAR(up / sunlight, 1, 0.05);
+}
+
+TEST(FoundScenes, TablesOverWhiteGroundKeepTheLight) {
+  EXPECT_LT(measured("bruneton", 12, 1), 0.01);
+  EXPECT_LT(measured("moments", 12, 1), 0.01);
+}
+
+json dense_haze(double altitude_km) {
+  return changed(plain_scene(),
+                 {{"camera", {{"altitude_km", altitude_km}}},
+                  {"method", {{"scattering_orders", 1}}},
+                  {"atmosphere",
+                   {{"constituents",
+                     {{"aerosol",
+                       {{"type", "particles"},
+                        {"optical_depth", 10},
+                        {"single_scattering_albedo", 0.95},
+                        {"phase", {{"type", "henyey_greenstein"}, {"g", 0.7}}}}}}}}}});
+}
+
+TEST(FoundScenes, RaymarchSeesWhatIsNearInDenseHazeAndWhatIsFarAboveIt) {
+  const std::pair<double, Direction> views[] = {
+      {1, {-2, 40}}, {0.002, {45, 40}}, {0.002, {80, 40}}};
+  for (const auto& [altitude_km, view] : views) {
+    json scene = dense_haze(altitude_km);
+    Trial asked = trial("raymarch");
+    Radiances seen = asked.look(scene, {view});
+    auto exact = asked.first_order(scene, {view});
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(seen.radiance[0][c] / exact[0][c], 1, 1e-3) << altitude_km << " km";
+  }
+}
+
+TEST(FoundScenes, MomentsHaveNoSeamInTheGroundNextToTheHorizon) {
+  EXPECT_LT(measured("moments", 1, 0.002), row(1).bound);
+}
+
+TEST(FoundScenes, AutoSaysThatThePeaksOfHazeAreBeyondIt) {
+  Trial asked = trial("auto");
+  double error = row(13).measure(asked, 0.9)->least;
+  EXPECT_LE(error, std::max(row(13).bound, asked.stated()));
+}
+
+}  // namespace
+}  // namespace cyanometer
