@@ -90,10 +90,10 @@ TEST(FoundScenes, MomentsHaveNoSeamInTheGroundNextToTheHorizon) {
   EXPECT_LT(measured("moments", 1, 0.002), row(1).bound);
 }
 
-TEST(FoundScenes, AutoSaysThatThePeaksOfHazeAreBeyondIt) {
+TEST(FoundScenes, AutoSaysHowMuchLightIsLostInThickAir) {
   Trial asked = trial("auto");
-  double error = row(13).measure(asked, 0.9)->least;
-  EXPECT_LE(error, std::max(row(13).bound, asked.stated()));
+  double lost = row(12).measure(asked, 3)->value;
+  EXPECT_LE(lost, std::max(row(12).bound, row(12).stated_errors * asked.stated()));
 }
 
 }  // namespace
