@@ -4,28 +4,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <random>
+
+#include "engine/accuracy/dice.h"
 
 namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-
-/// The standard's distributions differ between libraries; its engines do not.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double from, double to) {
-    return from + (to - from) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double logarithmic(double from, double to) {
-    return std::exp(uniform(std::log(from), std::log(to)));
-  }
-  bool chance(double share) { return uniform(0, 1) < share; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 json power_law(double value, double exponent) {
   return {{"power_law", {{"value", value}, {"at_nm", 550}, {"exponent", exponent}}}};

@@ -137,6 +137,17 @@ double view_scale_km(const Problem& problem) {
   return weights > 0 ? std::exp(sum / weights) : problem.thickness_km;
 }
 
+/// Whether a layer that is denser inside than at its edge dims a slanting ray much.
+bool has_layers(const Problem& problem) {
+  return std::ranges::any_of(problem.media, [&](const Medium& medium) {
+    if (std::holds_alternative<ExponentialProfile>(medium.profile)) return false;
+    double most = 0;
+    for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w)
+      most = std::max(most, medium.scattering_per_km[w] + medium.absorption_per_km[w]);
+    return most * column_km(medium.profile, problem.thickness_km) > 0.1;
+  });
+}
+
 /// (node, weight) of all rules of up to `most` nodes, one after another.
 std::vector<glm::dvec2> gauss_rules(int most) {
   std::vector<glm::dvec2> all;
@@ -155,6 +166,7 @@ void append_quadrature(Physics<Real>& p, const Problem& problem) {
   for (double altitude : kinks) p.quadrature.emplace_back(altitude, 0);
   p.scene.kinks = static_cast<int>(kinks.size());
   p.scene.view_scale_km = static_cast<Real>(view_scale_km(problem));
+  p.scene.layers = has_layers(problem) ? 1 : 0;
 }
 
 /// The angle that a pixel spans; rays that are given one by one are as wide.

@@ -154,7 +154,7 @@ struct Physics {
 #undef INOUT_ARRAY
 #undef INOUT
 
-static_assert(sizeof(Physics<float>::SceneData) == 144);
+static_assert(sizeof(Physics<float>::SceneData) == 160);
 static_assert(sizeof(Physics<float>::MediumData) == 32);
 
 }  // namespace cyanometer::physics

@@ -13,14 +13,15 @@ namespace cyanometer {
 
 struct RandomTrialSettings {
   bool usual_options = false;  ///< each method at its defaults, else with its smallest tables
-  bool nudge = false;          ///< also changes one number of the scene by a ten-thousandth
+  std::vector<std::string> methods = {};  ///< only these; none: all
+  bool nudge = false;  ///< also changes one number of the scene by a ten-thousandth
 };
 
 /// {"seed", "failures": [{"method", "what"}], "refusals": the same}, and where a number was
 /// nudged {"nudged": its pointer, "jumps": {method: of all rays the largest change over what is
 /// allowed}}. Allowed are twice the largest change that order one in double makes on any ray,
-/// and 1e-3; rays on which that jumps itself, at horizons and at the edge of the shadow, are
-/// left out.
+/// or, of methods of all orders, that another of them makes, and 1e-3; rays on which order one
+/// jumps itself, at horizons and at the edge of the shadow, are left out.
 nlohmann::json random_trial(Engine& engine, std::uint64_t seed,
                             const RandomTrialSettings& settings, const Watch& watch = {});
 

@@ -107,6 +107,7 @@ Plan Trial::plan_of(const Scene& scene, std::size_t directions) const {
   plan.method = method_;
   plan.options = scene.method.options;
   plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
+  if (plan.wavelengths_nm.empty()) plan.wavelengths_nm = {680, 550, 440};
   if (described(method_)->random) {
     // Enough walks that noise does not hide what is measured.
     double walks = most_work_ / static_cast<double>(directions);
@@ -139,6 +140,24 @@ Radiances Trial::look(const json& document, const std::vector<Direction>& direct
   Radiances radiances = engine_.radiance(scene_of(document), directions, false, plan, watch_);
   check(radiances, directions);
   return radiances;
+}
+
+void Trial::picture(const json& document) {
+  watch_.check();
+  json small = document;
+  small["image"]["width"] = 16;
+  if (scene_of(small).camera.projection == Projection::perspective)
+    small["image"]["height"] = 9;
+  const Scene scene = scene_of(small);
+  Frame frame = engine_.render(scene, plan_of(scene, 128), watch_);
+  const int pixels = frame.width * frame.height;
+  for (const Frame::Plane& plane : frame.planes) {
+    for (int i = 0; i < pixels; ++i) {
+      if (!std::isfinite(plane.samples[i]))
+        throw BrokenFrame("pixel " + std::to_string(i) + " of " + plane.channel + " is " +
+                          std::to_string(plane.samples[i]));
+    }
+  }
 }
 
 Samples Trial::first_order(const json& document, const std::vector<Direction>& directions) {

@@ -49,6 +49,10 @@ class Trial {
   Radiances look(const nlohmann::json& scene, const std::vector<Direction>& directions,
                  const Plan& plan);
 
+  /// Renders a small frame of the scene, as a picture with all that it shows.
+  /// @throws BrokenFrame where a pixel is not finite, and as `look` does
+  void picture(const nlohmann::json& scene);
+
   /// Order one in double (adaptive.h), [direction][wavelength], the sun's irradiance being 1:
   /// radiances, or transmittances to the ground or the top.
   std::vector<std::vector<double>> first_order(const nlohmann::json& scene,

@@ -118,10 +118,11 @@ void random(const Arguments& arguments, Engine& engine, const Watch& watch) {
   for (std::uint64_t i = 0; i < arguments.random; ++i) {
     std::uint64_t seed = arguments.first + i;
     if (trials.contains(seed)) continue;
-    json trial = random_trial(
-        engine, seed,
-        {.usual_options = arguments.usual_options, .nudge = seed % arguments.nudge_each == 0},
-        watch);
+    json trial = random_trial(engine, seed,
+                              {.usual_options = arguments.usual_options,
+                               .methods = arguments.methods,
+                               .nudge = seed % arguments.nudge_each == 0},
+                              watch);
     trial["by"] = by;
     out << trial << std::endl;
     trials[seed] = std::move(trial);

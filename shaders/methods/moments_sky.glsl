@@ -40,11 +40,12 @@ SkyRay sky_ray(int e) {
   bool ground = e >= push.elevations;
   Real share = Real(ground ? e - push.elevations : e) / Real(push.elevations - 1);
   Vec3 axis = sun_axis();
-  Path path = path_from_camera(direction_of_share(max(share, 2e-3), ground, 0.0, axis_forward(axis)));
+  // At the horizon itself and at the edge of the air rounding doesn't decide what a ray meets.
+  Path path = path_from_camera(
+      direction_of_share(clamp(share, 2e-3, 1.0 - 2e-3), ground, 0.0, axis_forward(axis)));
   SkyRay ray;
   ray.altitude_km = path.altitude_km;
   ray.mu = path.mu;
-  // At the horizon itself rounding doesn't decide.
   ray.length_km = ground ? distance_to_ground(path.altitude_km, path.mu)
                          : distance_to_top(path.altitude_km, path.mu);
   Real axis_sine = length(Vec2(axis.x, axis.y));

@@ -25,7 +25,23 @@ struct Piece {
   Real from_km, to_km;   // distances along the path
   bool downwards;        // looked at from the far end
   Real altitude_km, mu;  // at the end that it is looked at from
+  Real reach_km;         // from its near end to about VIEW_DEPTHS
 };
+
+// The distance from a piece's near end beyond which little light comes back, by halves of the piece; all of
+// it where no layer hides anything.
+Real reach_into(Path path, Real from_km, Real to_km) {
+  Real reach_km = to_km - from_km;
+  for (int i = 0; i < 16 * scene.layers; ++i) {
+    Real half_km = 0.5 * reach_km;
+    if (largest_extinction(altitude_after(path.altitude_km, path.mu, from_km + half_km)) * half_km <
+        VIEW_DEPTHS) {
+      break;
+    }
+    reach_km = half_km;
+  }
+  return reach_km;
+}
 
 Piece piece_between(Path path, Real from_km, Real to_km) {
   Piece piece;
@@ -37,9 +53,20 @@ Piece piece_between(Path path, Real from_km, Real to_km) {
   piece.altitude_km = altitude_after(path.altitude_km, path.mu, low_km);
   Real mu = (r * path.mu + low_km) / (scene.planet_radius_km + piece.altitude_km);
   piece.mu = max(piece.downwards ? -mu : mu, 0.0);
-  if (!piece.downwards) return piece;
+  // In a layer that is denser inside than at its edge, as clouds are, little comes from beyond its rim.
+  Real length_km = to_km - from_km;
   Real near_h = altitude_after(path.altitude_km, path.mu, from_km);
-  if (largest_extinction(near_h) * (to_km - from_km) > 2.0 * VIEW_DEPTHS) {
+  Real extinction = largest_extinction(near_h);
+  bool dense = extinction * length_km > 2.0 * VIEW_DEPTHS;
+  piece.reach_km = VIEW_DEPTHS / max(extinction, 1e-9);
+  Real reach_km = reach_into(path, from_km, to_km);
+  StretchedPath upwards =
+      stretched_path(piece.altitude_km, piece.mu, length_km, scene.view_scale_km);
+  if (reach_km < min(length_km, upwards.bend_km)) {
+    dense = true;
+    piece.reach_km = min(piece.reach_km, reach_km);
+  }
+  if (piece.downwards && dense) {
     piece.downwards = false;
     piece.altitude_km = near_h;
     piece.mu = (r * path.mu + from_km) / (scene.planet_radius_km + near_h);
@@ -88,8 +115,7 @@ StretchedPath nodes_of(Piece piece, Real mu_sun) {
   StretchedPath nodes =
       stretched_path(piece.altitude_km, piece.mu, length_km, scene.view_scale_km);
   if (!piece.downwards && piece.mu < mu_sun) {
-    Real depths_km = VIEW_DEPTHS / max(largest_extinction(piece.altitude_km), 1e-9);
-    nodes.bend_km = min(nodes.bend_km, depths_km);
+    nodes.bend_km = min(nodes.bend_km, piece.reach_km);
   }
   nodes.end = length_km / sqrt(length_km * length_km + nodes.bend_km * nodes.bend_km);
   return nodes;

@@ -28,6 +28,9 @@ struct SceneData {
   int ends;             // of rays: 1 for all, or one a ray (camera.glsl)
   Real pixel_rad;       // angle that a pixel of the frame spans, near its middle
   int surface;          // what the ground is (surface/data.glsl); 0 is the same everywhere
+
+  int layers;           // 1 where one may hide what lies behind it, as clouds do (raymarch.glsl)
+  int idle[3];
 };
 
 // One constituent; `a` and `b` by type of profile (profile.glsl), `g` by type of phase (phase.glsl).

@@ -72,12 +72,13 @@ int looks_from_node(const Problem& problem) {
 int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
   int on_a_ray = 2 * (scene.profile_nodes() + 1);  // down to its lowest point and up again
   int a_node = 2 + on_a_ray + 4 * scene.density_iterations() + looks_from_node(scene.problem());
-  int a_piece = scene.kinks() + on_a_ray + view_nodes * a_node;
+  int into = 17 * (1 + scene.density_iterations());  // how far one sees into it
+  int a_piece = scene.kinks() + on_a_ray + into + view_nodes * a_node;
   if (a_piece > most_loop_iterations && has_heights(scene.problem())) {
     throw OverLimit(
         "/method/view_nodes",
         "over ground with heights a march can follow at most " +
-            std::to_string((most_loop_iterations - scene.kinks() - on_a_ray) / a_node) +
+            std::to_string((most_loop_iterations - scene.kinks() - on_a_ray - into) / a_node) +
             " view nodes");
   }
   if (a_piece > most_loop_iterations) {
