@@ -136,6 +136,7 @@ for (const size of Object.keys(SIZES)) {
         assert.match(sun.place.time, /^2026-12-21T12:00:00\+01:00$/);
         assert.notEqual(await person.look(), first);
         const slider = page.getByLabel('Time of day');
+        await page.locator('.strip').scrollIntoViewIfNeeded();
         const strip = await slider.boundingBox();
         await person.press(strip.x + 0.5 * strip.width, strip.y + 40);
         await person.move(strip.x + 0.75 * strip.width, strip.y + 40, 5);
