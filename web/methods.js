@@ -22,9 +22,9 @@ export function optionNodes(method) {
 
 /** The settings among `options` that are not the method's defaults, in words. */
 export function settingsInWords(methods, name, options) {
-  const usual = Object.fromEntries((methods.find((one) => one.name === name)?.options ?? [])
-    .map((option) => [option.name, option.default]));
-  return Object.entries(options).filter(([option, value]) => value !== usual[option])
+  const known = methods.find((one) => one.name === name)?.options ?? [];
+  return known.map((option) => [option.name, options[option.name] ?? option.default, option.default])
+    .filter(([, value, usual]) => value !== usual)
     .map(([option, value]) => `${option.replaceAll('_', ' ')} ${format(value)}`).join(', ');
 }
 

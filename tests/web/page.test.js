@@ -45,7 +45,8 @@ for (const size of Object.keys(SIZES)) {
         }
       }
       assert.deepEqual(await page.locator('.fold h2').allInnerTexts(),
-                       ['Sun', 'Time and place', 'Air, haze and ozone', 'Planet', 'Camera', 'Light', 'Picture', 'Method']);
+                       ['Sun', 'Time and place', 'Air, haze and ozone', 'Planet', 'Camera', 'Light', 'Picture',
+                        'Method']);
       const unit = await person.control('sun.elevation_deg').locator('.unit').textContent();
       assert.equal(unit, '°');
     });
@@ -151,8 +152,9 @@ for (const size of Object.keys(SIZES)) {
     });
 
     visit(size, 'the frame says its speed, method, options, error and exposure', async (person, page) => {
-      for (const [fact, text] of [['Render', /^Render [\d.]+ ms$/], ['Method', /^Method Raymarch$/],
-        ['Options', /^Options view nodes 7$/], ['Error', /^Error ≤ [\d.]+ %/], ['Exposure', /^Exposure [+−][\d.]+ EV$/]]) {
+      const said = { Render: /^Render [\d.]+ ms$/, Method: /^Method Raymarch$/, Options: /^Options view nodes 7$/,
+                     Error: /^Error ≤ [\d.]+ %/, Exposure: /^Exposure [+−][\d.]+ EV$/ };
+      for (const [fact, text] of Object.entries(said)) {
         assert.match(await page.locator(`[data-fact=${fact}]`).innerText(), text);
       }
       await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
