@@ -56,8 +56,9 @@ async function readPieces(read) {
   }
 }
 
-const post = (address, body, signal) => send(address, {
-  method: 'POST', body: JSON.stringify(body), signal, headers: { 'Content-Type': 'application/json' },
+const post = (address, body, signal, headers = {}) => send(address, {
+  method: 'POST', body: JSON.stringify(body), signal,
+  headers: { 'Content-Type': 'application/json', ...headers },
 });
 
 /** What there is: `schema`, `presets`, `methods`, `limits`. */
@@ -96,8 +97,6 @@ export const radiance = (scene, directions, signal) =>
 export const optics = (scene, signal) => postJson('/v1/optics', scene, signal);
 /** The sun over a place through a day. */
 export const day = (place, signal) => postJson('/v1/day', place, signal);
-/** What each ingredient is worth. */
-export const explain = (scene, signal) => postJson('/v1/explain', scene, signal);
 /** How much the frame of `a` differs from that of `b`, in figures or as a picture. */
 export const compare = (a, b, signal) => postJson('/v1/compare', { a, b }, signal);
 export const compareAsPicture = (a, b, signal) =>
@@ -115,14 +114,27 @@ export const judgeAsPicture = (scene, exr, signal) =>
 export const composite = (scene, exr, signal) =>
   postPicture(`/v1/composite?${toQuery(scene)}`, exr, signal, 'image/x-exr');
 
+const eachLine = (answer, onLine) => readPieces(() => readLines(answer.body, (text) => {
+  const line = JSON.parse(text);
+  if (line.status) throw new Refused(line, line.status);
+  onLine(line);
+}));
+
 /** Speed against accuracy: `onLine` gets what was charted, then point after point. */
 export async function chart(scene, onLine, signal) {
-  const answer = await post('/v1/chart', scene, signal);
-  await readPieces(() => readLines(answer.body, (text) => {
-    const line = JSON.parse(text);
-    if (line.status) throw new Refused(line, line.status);
-    onLine(line);
-  }));
+  await eachLine(await post('/v1/chart', scene, signal), onLine);
+}
+
+/** What each ingredient is worth; `onProgress(share)` while it works. */
+export async function explain(scene, onProgress, signal) {
+  let worth;
+  const answer = await post('/v1/explain', scene, signal, { Accept: 'application/x-ndjson' });
+  await eachLine(answer, ({ progress, ingredients }) => {
+    onProgress(progress);
+    worth = ingredients;
+  });
+  if (!worth) throw goneMidway();
+  return worth;
 }
 
 /** Frames of the scene with each of the patches: `onFrame(blob, facts, place)` from 0 on. */

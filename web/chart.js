@@ -5,6 +5,7 @@ import { chart, inWords } from './api.js';
 import { h, svg } from './dom.js';
 import { words } from './editors.js';
 import { percent } from './figures.js';
+import { settingsInWords } from './methods.js';
 import { format } from './numbers.js';
 import { axes, extent } from './plot.js';
 import { Task } from './task.js';
@@ -36,6 +37,7 @@ export class ChartBlock {
 
   constructor(state, methods) {
     this.state = state;
+    this.methods = methods;
     this.titles = Object.fromEntries(methods.map(({ name, title }) => [name, title ?? words(name)]));
     this.place = h('div', { className: 'result' });
     this.words = h('p', { className: 'help', role: 'status' });
@@ -97,9 +99,10 @@ export class ChartBlock {
     }
     const { width, height, points } = this.#head;
     const measured = `${this.#points.length} settings`;
+    const small = `Measured on small frames, ${width} × ${height}.`;
     this.words.textContent = this.#task.running
-      ? `${measured} of up to ${points} measured…`
-      : `${measured}, frames of ${width} × ${height}. The line joins what nothing else beats.`;
+      ? `${measured} of up to ${points} measured… ${small}`
+      : `${measured}. ${small} The line joins what nothing else beats.`;
   }
 
   #draw() {
@@ -110,7 +113,8 @@ export class ChartBlock {
     const [left, right] = wide(extent(series, 0, 'log'));
     const [low, high] = wide(extent(series, 1, 'log'));
     const plot = axes({ label: 'Error against time of a frame', height: HEIGHT,
-      x: { title: 'device time of a frame', unit: 'ms', scale: 'log', low: left, high: right },
+      x: { title: `device time, ${this.#head.width} × ${this.#head.height}`, unit: 'ms', scale: 'log',
+           low: left, high: right },
       y: { title: 'error', unit: '%', scale: 'log', low: 100 * low, high: 100 * high } });
     plot.element.removeAttribute('tabindex');  // the points are what is focused
     plot.element.setAttribute('role', 'group');
@@ -125,8 +129,8 @@ export class ChartBlock {
   }
 
   #dot(point, [x, y], best) {
-    const { method, options, error, frame_ms: ms } = point;
-    const name = `${this.titles[method]}, ${optionsText(options)}: ` +
+    const { method, error, frame_ms: ms } = point;
+    const name = `${this.#inWords(point)}: ` +
       `error ${percent(error)}, ${format(Number(ms.toPrecision(2)))} ms`;
     const choose = () => this.#choose(point);
     const dot = svg('g', { class: `point of-${method}${best ? ' best' : ''}`, role: 'button', tabindex: 0,
@@ -156,7 +160,10 @@ export class ChartBlock {
     const orders = this.state.value('method.scattering_orders');
     const kept = typeof orders === 'number' ? { scattering_orders: orders } : {};
     this.state.edit({ method: { ...kept, name: point.method, ...point.options } });
-    this.words.textContent = `Rendering by ${this.titles[point.method]}: ${optionsText(point.options)}.`;
+    this.words.textContent = `Rendering by ${this.#inWords(point)}.`;
+  }
+  #inWords({ method, options }) {
+    return [this.titles[method], settingsInWords(this.methods, method, options)].filter(Boolean).join(', ');
   }
   #mark() {
     const { name, ...options } = this.state.document().method ?? {};
@@ -170,5 +177,3 @@ const keyOf = ({ method, options }) => {
   const { scattering_orders, ...own } = options;
   return `${method} ${JSON.stringify(Object.entries(own).sort())}`;
 };
-const optionsText = (options) => Object.entries(options)
-  .map(([name, value]) => `${name.replaceAll('_', ' ')} ${format(value)}`).join(', ');

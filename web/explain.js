@@ -41,14 +41,15 @@ export function explainBlock(state, view) {
       return idle();
     }
     button.textContent = 'Stop';
-    say('Leaving out one thing after the other…');
+    const done = h('progress', { max: 1, 'aria-label': 'Of the explanation' });
+    put(h('div', {}, h('p', { className: 'help' }, 'Leaving out one thing after the other…'), done));
     const { width, height } = view.fullSize();
     const { method, ...scene } = state.document();
     const { channels, layers, ...image } = scene.image ?? {};
     const small = { ...image, width: WIDTH, height: Math.max(2, Math.round((WIDTH * height) / width)) };
     try {
       const asked = { ...scene, image: small, method: { max_error: ERROR, ...method } };
-      const worth = await task.run((signal) => explain(asked, signal),
+      const worth = await task.run((signal) => explain(asked, (share) => { done.value = share; }, signal),
                                    (error) => say(inWords(error)));
       if (worth) put(draw(worth));
     } catch (error) {

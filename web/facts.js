@@ -6,13 +6,16 @@ import { format } from './numbers.js';
 
 const REFRESH_MS = 250;
 
-/** Shows the facts of each frame in `element`, at most four times a second. */
-export function bindFacts(element, view) {
+/**
+ * Shows the facts of each frame in `element`, at most four times a second; `settings(method,
+ * options)` are in words.
+ */
+export function bindFacts(element, view, settings) {
   let facts;
   let timer;
   const draw = () => {
     timer = undefined;
-    if (facts) element.replaceChildren(...lines(facts, view.framesPerSecond).map(
+    if (facts) element.replaceChildren(...lines(facts, view.framesPerSecond, settings).map(
       ([name, value, title]) => h('span', { className: 'fact', title, 'data-fact': name },
                                   h('span', { className: 'quiet' }, `${name} `), value)));
   };
@@ -22,7 +25,7 @@ export function bindFacts(element, view) {
   });
 }
 
-function lines(facts, framesPerSecond) {
+function lines(facts, framesPerSecond, settings) {
   const speed = facts.moving || framesPerSecond > 4
     ? ['Frames', `${framesPerSecond}/s`, 'Frames that reached the screen in the last second']
     : ['Frame', `${format(Math.round(facts.totalMs))} ms`, 'From the request to the screen'];
@@ -31,11 +34,14 @@ function lines(facts, framesPerSecond) {
     ['Render', `${format(Number((facts.renderMs ?? 0).toPrecision(3)))} ms`, 'Time on the device'],
     ['Size', `${facts.width} × ${facts.height}`, 'Pixels of this frame'],
     ['Method', words(facts.method ?? '?'), 'How the light of this frame was computed'],
-    ['Options', (facts.options ?? '').replaceAll('_', ' ').replaceAll('=', ' '), 'Of the method'],
+    ['Options', settings(facts.method, optionsOf(facts)), 'Of the method, but for its defaults'],
     ['Error', errorText(facts), 'A bound that holds in 95 % of frames'],
     ['Exposure', `${signed(facts.exposure)} EV`, 'Stops; at 0 a white card in the sun is 1'],
   ].filter(([, value]) => value !== '');
 }
+
+const optionsOf = ({ options }) => Object.fromEntries((options ?? '').split(';').filter(Boolean)
+  .map((text) => text.trim().split('=')).map(([name, value]) => [name, Number(value)]));
 
 function errorText({ error, met }) {
   const value = Number(error);

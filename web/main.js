@@ -4,7 +4,7 @@
 //   the daemon      api multipart retry task
 //   the picture     view camera projection; over it wipe and overlay
 //   Skies           presets
-//   Adjust          panel schema controls editors spectrum numbers methods; constituents curves
+//   Adjust          panel schema controls editors spectrum numbers methods limits; constituents curves
 //                   together; day day_clock day_strip
 //   Compare         compare figures chart explain bars own exr
 //   Probe, Save     probe, save
@@ -19,8 +19,9 @@ import { Controls } from './controls.js';
 import { Day } from './day.js';
 import { explainBlock } from './explain.js';
 import { bindFacts } from './facts.js';
+import { Limits } from './limits.js';
 import { bindAddress, readLink } from './link.js';
-import { MethodOptions } from './methods.js';
+import { MethodOptions, settingsInWords } from './methods.js';
 import { Overlay } from './overlay.js';
 import { OwnPicture } from './own.js';
 import { bindPanel, buildFolds } from './panel.js';
@@ -43,6 +44,7 @@ const probe = new Probe({ state, view, panel, mark: byId('mark') });
 byId('probe').append(probe.element);
 let controls;
 let methodOptions;
+let methods = [];  // once the daemon has listed them
 
 // ---- Words for the person ---------------------------------------------------------------------
 
@@ -63,7 +65,11 @@ view.addEventListener('frame', () => {
   if (byId('status').textContent) say('');
   controls?.forgive();
 });
-bindFacts(byId('facts'), view);
+bindFacts(byId('facts'), view, (...setting) => settingsInWords(methods, ...setting));
+const limits = new Limits({ view, note: byId('near'), open: () => {
+  panel.select('adjust');
+  byId('adjust').querySelector('[data-group=method]')?.setAttribute('open', '');
+} });
 
 // ---- What the daemon makes of the scene -------------------------------------------------------
 
@@ -82,7 +88,9 @@ async function resolveScene() {
     const scene = state.document();
     const answer = await ask(scene);
     state.resolve(scene, answer.scene);
-    methodOptions?.explain(answer);
+    const shown = await ask(view.restingScene());
+    methodOptions?.explain(shown);
+    limits.show(shown);
   } catch (error) {
     // A refused scene is told of by its frame, and an aborted question was about an old one.
     if (error.name !== 'AbortError' && error.pointer === undefined) say(inWords(error), 'refused');
@@ -146,8 +154,9 @@ const idle = () => new Promise((resolve) => {
 async function start() {
   resolveScene();
   const ask = (what) => untilAnswered(() => list(what), (error) => say(inWords(error), 'waiting'));
-  const [root, { presets }, { methods }] =
+  const [root, { presets }, known] =
     await Promise.all([ask('schema'), ask('presets'), ask('methods')]);
+  methods = known.methods;
   const schema = new Schema(root, () => {
     const chosen = state.value('spectrum.wavelengths_nm');
     return Array.isArray(chosen) ? chosen.length : undefined;
@@ -155,14 +164,14 @@ async function start() {
   state.rivals = (path) => schema.rivals(path);
   controls = new Controls(state, schema);
   const constituents = new Constituents(state, schema, controls);
-  methodOptions = new MethodOptions(methods, state, controls);
+  methodOptions = new MethodOptions(methods, state, controls, limits.element);
   const fold = () => byId('adjust').querySelector('[data-group=day]');
   const day = new Day({ state, view, idle, fold });
   byId('adjust').replaceChildren(...buildFolds(schema, controls, MethodOptions.paths(methods), {
     atmosphere: [constituents.element], method: [methodOptions.element], day: [day.element] }));
   fold().addEventListener('toggle', () => day.refresh());
   byId('skies').replaceChildren(presetGallery(presets, state, idle));
-  byId('compare').replaceChildren(...comparePage(methods));
+  byId('compare').replaceChildren(...comparePage());
   byId('save').replaceChildren(...savePage(state, view));
   for (const event of ['settle', 'resolve']) {
     state.addEventListener(event, () => {
@@ -175,7 +184,7 @@ async function start() {
   refreshControls();
 }
 
-function comparePage(methods) {
+function comparePage() {
   const overlay = new Overlay(byId('overlay'));
   const compare = new Compare({ state, view, overlay, methods, handle: byId('wipe'),
                                 otherCanvas: byId('other') });

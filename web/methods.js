@@ -20,16 +20,25 @@ export function optionNodes(method) {
   }]));
 }
 
+/** The settings among `options` that are not the method's defaults, in words. */
+export function settingsInWords(methods, name, options) {
+  const known = methods.find((one) => one.name === name)?.options ?? [];
+  return known.map((option) => [option.name, options[option.name] ?? option.default, option.default])
+    .filter(([, value, usual]) => value !== usual)
+    .map(([option, value]) => `${option.replaceAll('_', ' ')} ${format(value)}`).join(', ');
+}
+
 export class MethodOptions {
   #drawn;
 
-  constructor(methods, state, controls) {
+  /** `limits` is the element that says where the method falls short. */
+  constructor(methods, state, controls, limits) {
     this.methods = methods;
     this.state = state;
     this.controls = controls;
     this.options = h('div', {});
     this.why = h('p', { className: 'help' });
-    this.element = h('div', {}, this.options, this.why);
+    this.element = h('div', {}, this.options, this.why, limits);
     this.refresh();
   }
 
@@ -44,7 +53,7 @@ export class MethodOptions {
     this.#drawn = name;
     const method = this.methods.find((one) => one.name === name);
     this.options.replaceChildren(...(method ? [
-      h('p', { className: 'help' }, [method.summary, ...(method.limits ?? [])].join(' ')),
+      h('p', { className: 'help' }, method.summary),
       ...Object.entries(optionNodes(method)).map(([path, node]) => this.controls.make(path, node)),
     ] : []));
   }
@@ -52,9 +61,9 @@ export class MethodOptions {
   /** Says what the plan says. */
   explain(plan) {
     const waves = plan.wavelengths_nm?.length;
-    const options = Object.entries(plan.options ?? {})
-      .map(([name, value]) => `${name.replaceAll('_', ' ')} ${format(value)}`).join(', ');
-    this.why.textContent = [plan.why, options ? `Options: ${options}.` : '', waves ? `Wavelengths computed: ${waves}` +
+    const options = settingsInWords(this.methods, plan.method, plan.options);
+    const why = plan.why.replace(/ \([a-z_]+ [^)]*\)/, '');  // all of the method's options
+    this.why.textContent = [why, options ? `Options: ${options}.` : '', waves ? `Wavelengths computed: ${waves}` +
       (waves <= 8 ? ` (${plan.wavelengths_nm.map(format).join(', ')} nm).` : '.') : '']
       .filter(Boolean).join(' ');
   }

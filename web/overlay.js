@@ -2,7 +2,9 @@
 
 import { h } from './dom.js';
 
-const LEGEND_PX = 36;  // at most, of an error picture's bar below its pixels
+// An error picture has its scale below its pixels: a row of that bar, and what lies beside it.
+const BAR = { row: 12, side: 20 };
+const LABELS = ['−100 %', '−1 %', '0.01 %', '+1 %', '+100 %'];
 
 export class Overlay {
   constructor(canvas) {
@@ -22,12 +24,12 @@ export class Overlay {
    */
   async showErrors(blob, { width, height }, label) {
     const bitmap = await createImageBitmap(blob);
-    const bar = h('canvas', { className: 'error-scale', width: bitmap.width,
-                              height: Math.min(LEGEND_PX, bitmap.height - height), role: 'img',
-                              'aria-label': 'Scale of the error picture: blue too dark, red too bright' });
-    bar.getContext('2d').drawImage(bitmap, 0, -height);
+    const bar = h('canvas', { width: bitmap.width - 2 * BAR.side, height: 1 });
+    bar.getContext('2d').drawImage(bitmap, -BAR.side, -(height + BAR.row));
     this.#draw(bitmap, width, height, label);
-    return bar;
+    return h('div', { className: 'error-scale', role: 'img',
+                      'aria-label': 'Scale of the error picture: blue too dark, red too bright' },
+             bar, h('div', {}, LABELS.map((text) => h('span', {}, text))));
   }
 
   #draw(bitmap, width, height, label) {

@@ -5,7 +5,7 @@ import { h, icon } from './dom.js';
 const byId = (id) => document.getElementById(id);
 
 /**
- * Tabs and the fold. `select(id)` opens a tab and `showing(id)` says whether it is seen; elements
+ * Tabs and the fold. `select(id)` unfolds a tab and `showing(id)` says whether it is seen; elements
  * of tabs get `shown` and `hidden` events.
  */
 export function bindPanel() {
@@ -37,18 +37,24 @@ export function bindPanel() {
   });
   select(tabs.find((tab) => tab.getAttribute('aria-selected') === 'true'));
 
-  const show = (open) => {
+  const unfold = (open) => {
     byId('panel').hidden = !open;
     byId('open').hidden = open;
     byId('open').setAttribute('aria-expanded', String(open));
     document.body.classList.toggle('folded', !open);
+  };
+  const show = (open) => {
+    unfold(open);
     byId(open ? 'close' : 'open').focus({ preventScroll: true });
   };
   byId('close').addEventListener('click', () => show(false));
   byId('open').addEventListener('click', () => show(true));
   return {
     toggle: () => show(byId('panel').hidden),
-    select: (id) => select(byId(`tab-${id}`)),
+    select: (id) => {
+      unfold(true);
+      select(byId(`tab-${id}`));
+    },
     showing: (id) => !byId('panel').hidden && !byId(id).hidden,
   };
 }

@@ -95,6 +95,11 @@ export class View extends EventTarget {
     return this.#request({ ...this.#sizeUpTo(this.#movingPixels), moving: true });
   }
 
+  /** The scene as it is asked for when it rests. */
+  restingScene() {
+    return this.#request({ ...this.fullSize(), moving: false });
+  }
+
   /** Asks for nothing until `release()`: frames come from elsewhere, by `present`. */
   hold() {
     this.#held = true;

@@ -451,7 +451,30 @@ TEST(Explain, EveryIngredientHasItsWorth) {
   EXPECT_EQ(worths.size(), 5u);
 }
 
+TEST(Explain, LinesTellHowFarItIsUntilTheIngredientsCome) {
+  const auto answer = post("/v1/explain", quick_scene(), {{"Accept", "application/x-ndjson"}});
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  std::istringstream lines(answer->body);
+  std::vector<json> told;
+  for (std::string line; std::getline(lines, line);) told.push_back(json::parse(line));
+  ASSERT_GE(told.size(), 2u) << answer->body;
+  double before = 0;
+  for (const json& line : told) {
+    EXPECT_GE(line.at("progress").get<double>(), before);
+    before = line["progress"];
+    EXPECT_EQ(line.contains("ingredients"), &line == &told.back());
+  }
+  EXPECT_GT(told.front().at("progress"), 0);
+  const auto whole = post("/v1/explain", quick_scene());
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(told.back().at("ingredients"), json::parse(whole->body));
+}
+
 TEST(Explain, RefusesAsOtherRoutesDo) {
+  const httplib::Headers lines{{"Accept", "application/x-ndjson"}};
+  expect_problem(post("/v1/explain", {{"planet", {{"radius_km", -1}}}}, lines), 400,
+                 "/planet/radius_km");
   expect_problem(post("/v1/explain", {{"planet", {{"radius_km", -1}}}}), 400,
                  "/planet/radius_km");
   expect_problem(client().Post("/v1/explain", "", "application/json"), 400);

@@ -100,10 +100,9 @@ for (const size of Object.keys(SIZES)) {
       const box = await node.boundingBox();
       const place = await albedo.locator('.spectrum').boundingBox();
       const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-      await page.mouse.move(x, y);
-      await page.mouse.down();
-      await page.mouse.move(x + 10, place.y + place.height * 0.5, { steps: 6 });
-      await page.mouse.up();
+      await person.press(x, y);
+      await person.move(x + 10, place.y + place.height * 0.5, 6);
+      await person.lift();
       const { wavelengths_nm: wavelengths, values } = (await person.scene()).planet.ground_albedo;
       assert.ok(wavelengths[1] > 552 && wavelengths[1] < 600, String(wavelengths));
       assert.ok(values[1] > 0.3 && values[1] < 0.7, String(values));
@@ -137,6 +136,12 @@ for (const size of Object.keys(SIZES)) {
         assert.match(sun.place.time, /^2026-12-21T12:00:00\+01:00$/);
         assert.notEqual(await person.look(), first);
         const slider = page.getByLabel('Time of day');
+        await page.locator('.strip').scrollIntoViewIfNeeded();
+        const strip = await slider.boundingBox();
+        await person.press(strip.x + 0.5 * strip.width, strip.y + 40);
+        await person.move(strip.x + 0.75 * strip.width, strip.y + 40, 5);
+        await person.lift();
+        assert.match((await person.scene()).sun.place.time, /^2026-12-21T1[5-7]:/);
         await slider.focus();
         await page.keyboard.press('Home');
         await person.rest();
@@ -144,6 +149,22 @@ for (const size of Object.keys(SIZES)) {
         await page.locator('.strip').scrollIntoViewIfNeeded();
         await person.photograph('day');
       });
+
+    visit(size, 'a time-lapse plays in any page, in an <img>', async (person, page) => {
+      const link = 'preset=earth&image.width=64&image.height=36&image.exposure_ev=0';
+      const address = (query) => String(new URL(`/v1/${query}`, page.url()));
+      const elsewhere = await person.context.newPage();
+      const show = (query) => elsewhere.setContent(`<img src="${address(query)}">`);
+      const look = async () => (await elsewhere.screenshot()).toString('base64');
+      await show(`render?${link}&sun.elevation_deg=-2`);
+      const last = await look();
+      await show(`stream?${link}&sun.elevation_deg=30&frames=60&to.sun.elevation_deg=-2`);
+      const seen = new Set();
+      for (const ends = Date.now() + 60000; !seen.has(last); seen.add(await look())) {
+        assert.ok(Date.now() < ends, 'the last frame comes');
+      }
+      assert.ok(seen.size > 5, `${seen.size} frames were seen`);
+    });
 
     visit(size, 'the day plays as a time-lapse', async (person, page) => {
       await page.locator('[data-group=day] summary').click();

@@ -45,12 +45,12 @@ for (const size of Object.keys(SIZES)) {
       const box = await page.locator('#wipe').boundingBox();
       const picture = await page.locator('#picture').boundingBox();
       const y = picture.y + picture.height * 0.6;
-      await page.mouse.move(box.x + box.width / 2, y);
-      await page.mouse.down();
-      await page.mouse.move(picture.x + picture.width * 0.8, y, { steps: 5 });
-      await page.mouse.up();
+      await person.press(box.x + box.width / 2, y);
+      await person.move(picture.x + picture.width * 0.8, y, 5);
+      await person.lift();
       assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '80');
       assert.equal(await person.patch(RIGHT), before[1], 'the line has passed it');
+      await page.locator('#wipe').focus();
       await page.keyboard.press('Home');
       assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '0');
       assert.notEqual(await person.patch(LEFT), before[0]);
@@ -86,9 +86,31 @@ for (const size of Object.keys(SIZES)) {
       assert.ok(!(await page.locator('#overlay').isVisible()), 'an old error is not shown over a new sky');
     }, { hash: FIXED.replace('raymarch', 'moments') });
 
-    visit(size, 'what each part is worth is told in bars', async (person, page) => {
+    visit(size, 'where the method falls short in this sky is told, and where the measurements are',
+      async (person, page) => {
+        await page.locator('#near').click();
+        const limits = page.locator('.limits');
+        assert.match(await limits.innerText(), /Moments falls short.*Late twilight is off by \d/s);
+        const count = await limits.locator('li').count();
+        assert.equal(await page.locator('#near').innerText(), `Near ${count} limits`);
+        await person.photograph('limits');
+        const [table] = await Promise.all([
+          person.context.waitForEvent('page'), limits.getByRole('link').click()]);
+        await table.waitForFunction(() => document.images[0]?.complete && document.images[0].naturalWidth);
+        assert.match(await table.title(), /Where methods fail/);
+        await table.close();
+        await person.type('sun.elevation_deg', '40');
+        await limits.waitFor({ state: 'hidden' });
+        assert.equal(await page.locator('#near').isVisible(), false);
+      }, { hash: '#preset=earth&method.name=moments&sun.elevation_deg=-10' });
+
+    visit(size, 'what each part is worth is told in bars, and how far the work is', async (person, page) => {
       await person.tab('Compare');
       await page.getByRole('button', { name: 'Explain' }).click();
+      await page.locator('#explain-block progress').evaluate((progress) => {
+        window.shares = [];
+        new MutationObserver(() => window.shares.push(progress.position)).observe(progress, { attributes: true });
+      });
       const bars = page.locator('#explain-block .bars li');
       await bars.first().waitFor();
       const rows = await bars.evaluateAll((all) => all.map((row) => [
@@ -96,6 +118,9 @@ for (const size of Object.keys(SIZES)) {
       const names = rows.map(([name]) => name);
       for (const name of ['Air', 'Aerosol', 'Ozone', 'The ground’s light']) assert.ok(names.includes(name), name);
       assert.deepEqual(rows.map(([, error]) => error), rows.map(([, error]) => error).sort((a, b) => b - a));
+      const shares = await page.evaluate(() => window.shares);
+      assert.ok(shares.length && shares[0] > 0, 'the work tells how far it is');
+      assert.deepEqual(shares, [...shares].sort((a, b) => a - b));
       await page.locator('#explain-block').scrollIntoViewIfNeeded();
       await person.photograph('explain');
     }, { hash: FIXED });
@@ -107,7 +132,8 @@ for (const size of Object.keys(SIZES)) {
         const points = page.locator('#chart-block .point[data-point]');
         await page.waitForFunction(() =>
           new Set([...document.querySelectorAll('.point[data-point]')].map((dot) => dot.dataset.method)).size >= 4);
-        assert.match(await page.locator('#chart-block [role=status]').innerText(), /of up to \d+ measured/);
+        assert.match(await page.locator('#chart-block [role=status]').innerText(),
+                     /of up to \d+ measured… Measured on small frames, \d+ × \d+/);
         assert.ok((await page.locator('#chart-block .front').getAttribute('d')).length > 4);
         const best = await page.locator('.point.best').evaluateAll((dots) =>
           dots.map((dot) => dot.getAttribute('aria-label')));
@@ -115,8 +141,13 @@ for (const size of Object.keys(SIZES)) {
         await page.getByRole('button', { name: 'Stop' }).click();
         await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).waitFor();
         const count = await points.count();
-        await page.locator('.point[data-method=hillaire]').first().focus();
-        await page.keyboard.press('Enter');
+        const hillaire = page.locator('.point[data-method=hillaire]').first();
+        if (size === 'phone') {
+          await hillaire.tap();
+        } else {
+          await hillaire.focus();
+          await page.keyboard.press('Enter');
+        }
         await person.rest();
         assert.equal((await person.scene()).method.name, 'hillaire');
         assert.match(await page.locator('[data-fact=Method]').innerText(), /Hillaire/);
@@ -151,6 +182,14 @@ for (const size of Object.keys(SIZES)) {
       assert.ok(right[2] > left[2] + 30, `air before what is dark and far: ${left} ${right}`);
       await person.photograph('composite');
     }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&image.exposure_ev=1&sun.azimuth_deg=180' });
+
+    visit(size, 'an EXR is chosen where none can be dropped', async (person, page) => {
+      await person.tab('Compare');
+      await page.getByLabel('Choose an EXR').setInputFiles({
+        name: 'grey.exr', mimeType: 'image/x-exr', buffer: exrFile(24, 16, { R: 0.1, G: 0.1, B: 0.1 }) });
+      await page.locator('#own-block [data-figure=error]').waitFor();
+      assert.match(await page.locator('#own-block').innerText(), /grey\.exr, 24 × 16/);
+    }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
 
     visit(size, 'what is no EXR is said in words', async (person, page) => {
       await drop(page, 'cat.png', Buffer.from('no picture'));

@@ -148,14 +148,39 @@ export class Person {
     await this.page.getByRole('tab', { name }).click();
   }
 
+  /** The hand goes down at a point of the window, in CSS pixels: a mouse; on a phone a finger. */
+  async press(x, y) {
+    this.hand = { x, y };
+    if (this.size === 'phone') return this.touch('touchStart', [this.hand]);
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.down();
+  }
+  async move(x, y, steps = 1) {
+    const from = this.hand;
+    for (let i = 1; i <= steps; ++i) {
+      this.hand = { x: from.x + (i / steps) * (x - from.x), y: from.y + (i / steps) * (y - from.y) };
+      if (this.size === 'phone') await this.touch('touchMove', [this.hand]);
+      else await this.page.mouse.move(this.hand.x, this.hand.y);
+    }
+  }
+  async lift() {
+    if (this.size === 'phone') await this.touch('touchEnd', []);
+    else await this.page.mouse.up();
+  }
+  /** `fingers`: [{x, y}] of those that are down. */
+  async touch(type, fingers) {
+    this.client ??= await this.context.newCDPSession(this.page);
+    await this.client.send('Input.dispatchTouchEvent',
+                           { type, touchPoints: fingers.map((spot, id) => ({ ...spot, id })) });
+  }
+
   /** Presses at `from`, moves through the points and lets go: {x, y} of the picture, 0 to 1. */
   async drag(from, ...points) {
     const box = await this.page.locator('#picture').boundingBox();
     const spot = ({ x, y }) => [box.x + x * box.width, box.y + y * box.height];
-    await this.page.mouse.move(...spot(from));
-    await this.page.mouse.down();
-    for (const point of points) await this.page.mouse.move(...spot(point), { steps: 8 });
-    await this.page.mouse.up();
+    await this.press(...spot(from));
+    for (const point of points) await this.move(...spot(point), 8);
+    await this.lift();
   }
 
   /** The scene that the address names, as the page's own JSON. */

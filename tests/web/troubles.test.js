@@ -2,14 +2,17 @@
 
 import assert from 'node:assert/strict';
 
+import { SIZES } from './person.js';
 import { visits } from './visits.js';
 
 const visit = visits();
 
 /** Where the browser itself notes the answers that `expected` matches. */
 function trouble(sentence, expected, steps) {
-  visit('desktop', sentence,
-        (person, page, daemon) => steps(person, page, page.locator('#status'), daemon), { expected });
+  for (const size of Object.keys(SIZES)) {
+    visit(size, sentence,
+          (person, page, daemon) => steps(person, page, page.locator('#status'), daemon), { expected });
+  }
 }
 
 trouble('a busy daemon is asked again when it says', /503/, async (person, page, status) => {

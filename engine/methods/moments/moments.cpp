@@ -459,7 +459,11 @@ const MethodDescription& moments_description() {
             {12},
             [](const SceneTraits& scene) { return scene.depth > 2; }},
            {"Order one, where it is read from a table, is off by 0.5 % for cameras above "
-            "20 km, and by 1 % in twilight."},
+            "20 km, and by 1 % in twilight.",
+            {},
+            [](const SceneTraits& scene) {
+              return scene.altitude_km > 10 || scene.sun_deg < 0;
+            }},
            {"Where the ground differs from place to place, the light that it sends back "
             "into the air is that of its mean albedo, slopes and the sea see an even "
             "sky, and heights shade the air not at all.",
