@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "engine/attention.h"
 #include "engine/optics/phase.h"
 
 namespace cyanometer {
@@ -309,6 +310,7 @@ MieOptics mie_optics(const MieSpheres& spheres, const std::vector<double>& wavel
   const bool alike = std::log(spheres.geometric_sigma) < 4 * finest_step;
   MieOptics optics;
   for (double nm : wavelengths_nm) {
+    look_up();
     const Sums sums = (alike ? one_size : integrate_sizes)(spheres, index, nm / 1000);
     optics.extinction_um2.push_back(sums.extinction);
     optics.scattering_um2.push_back(sums.scattering);

@@ -17,6 +17,7 @@ using nlohmann::json;
 Answer explain_request(const Request& request, Service& service) {
   negotiated(request.header("accept"), {"application/json"});
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const auto asked = scene_request(body_document(request));
   check_frame(asked.scene, service.config);
   std::vector<Worth> ingredients;
