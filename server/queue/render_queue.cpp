@@ -137,7 +137,7 @@ void RenderQueue::wait(Entry& entry) {
   std::unique_lock lock(mutex_);
   while (entry.state != Entry::State::done) {
     // A running job looks after itself between tiles; a waiting one is looked after from here.
-    constexpr auto glance = std::chrono::milliseconds(30);
+    constexpr auto glance = std::chrono::milliseconds(50);
     entry.finished.wait_for(lock, glance);
     if (entry.state != Entry::State::waiting) continue;
     if (Clock::now() >= watch.deadline) {
