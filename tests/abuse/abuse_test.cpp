@@ -268,7 +268,8 @@ std::vector<LongWork> long_works(int n) {
 TEST(Abuse, ClientsThatLeave) {
   const int rounds = number_from_environment("CYANOMETER_LEAVERS", 6);
   Served served;
-  // A kernel is compiled by its first dispatch, which no driver lets go of.
+  // A kernel is compiled by its first dispatch, which no driver lets go of: here, or in a first
+  // round that does not count.
   for (int n = 0; n < 14; ++n) {
     json scene = long_frame(static_cast<std::size_t>(n), n + 1000);
     scene["image"] = {{"width", 64}, {"height", 36}};
@@ -278,12 +279,13 @@ TEST(Abuse, ClientsThatLeave) {
   std::mt19937 random(1);
   std::map<std::string, std::vector<double>> by_name;
   std::vector<double> times;
+  double first = 0;
   // Nothing is left of it where the device has no job and its connection no thread.
   const auto open = [&] {
     return served.metric("cyanometer_device_busy") > 0 ||
            served.metric("cyanometer_connections") > 0;
   };
-  for (int n = 0; n < rounds; ++n) {
+  for (int n = 0; n <= rounds; ++n) {
     for (const LongWork& work : long_works(n)) {
       const std::string body = work.body.dump();
       Crowd client(served.port, 1);
@@ -295,6 +297,10 @@ TEST(Abuse, ClientsThatLeave) {
       const auto left = Clock::now();
       client.leave();
       while (open() && ms_since(left) < 10000) std::this_thread::sleep_for(1ms);
+      if (n == 0) {
+        first = std::max(first, ms_since(left));
+        continue;
+      }
       times.push_back(ms_since(left));
       by_name[work.name].push_back(times.back());
     }
@@ -306,9 +312,9 @@ TEST(Abuse, ClientsThatLeave) {
   }
   std::printf(
       "%zu clients left: nothing of their work was there after %.0f ms (half), %.0f ms (95 %%), "
-      "%.0f ms (99 %%), %.0f ms (worst)\n",
+      "%.0f ms (99 %%), %.0f ms (worst); where kernels were compiled first, %.0f ms at worst\n",
       times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 0.99),
-      quantile(times, 1));
+      quantile(times, 1), first);
   EXPECT_LT(quantile(times, 0.95), 100);
 }
 
