@@ -49,6 +49,10 @@ const std::vector<Setting>& settings() {
        1e6},
       {"surfaces", "folder of images that scenes may name in planet.surface; empty: none may",
        &Config::surfaces},
+      {"trusted-proxy",
+       "addresses and networks, as 127.0.0.1,10.0.0.0/8, of proxies whose X-Forwarded-For says "
+       "who the client is; empty: who connects",
+       &Config::trusted_proxy},
       {"token",
        "secret that requests bring as `Authorization: Bearer ...`, but for healthz and readyz; "
        "empty asks for none (better set in the environment, where process lists do not show "

@@ -28,6 +28,7 @@ struct Config {
   double frame_memory_mb = 2048;
   double cache_mb = 256;
   std::string surfaces;
+  std::string trusted_proxy;
   std::string token;
   std::string cors_origin;
   std::string log_level = "info";

@@ -11,7 +11,9 @@ HttpServer::Options options(const Config& config, ConnectionLimits limits) {
   limits.body_bytes = config.body_bytes();
   limits.bodies = std::make_shared<BodyBudget>();
   limits.bodies->most_bytes = std::max(config.frame_bytes(), config.body_bytes());
-  return {.limits = limits, .connections = static_cast<std::size_t>(config.threads)};
+  return {.limits = limits,
+          .proxies = Proxies(config.trusted_proxy),
+          .connections = static_cast<std::size_t>(config.threads)};
 }
 
 HttpServer::Handlers handlers(const Router& router) {

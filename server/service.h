@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "server/admission.h"
 #include "server/config.h"
 #include "server/http/message.h"
 #include "server/metrics.h"
@@ -19,6 +20,7 @@ struct Service {
   Config config;
   Metrics metrics;
   RenderQueue queue;
+  Admission admission{queue};
   Plans plans{queue};
   Frames frames;
   std::atomic<bool> draining{false};

@@ -60,6 +60,8 @@ std::string encode(const Frame& frame, const Scene& scene) {
     return chosen.encode(frame, scene);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string(chosen.encoding.name) + ": " + error.what());
   }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/attention.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -75,7 +76,10 @@ void write(const Frame& frame, Imf::Header header, Imf::PixelType type,
   MemoryStream stream(bytes);
   Imf::OutputFile file(stream, header);
   file.setFrameBuffer(pixels);
-  file.writePixels(frame.height);
+  for (int y = 0; y < frame.height; y += kLinesBetweenLooks) {
+    look_up();
+    file.writePixels(std::min(kLinesBetweenLooks, frame.height - y));
+  }
 }
 
 /// OpenEXR's pool of threads is one for the process, and empty until it is given a size.

@@ -15,6 +15,9 @@
 #include <cstring>
 #include <new>
 
+#include "engine/attention.h"
+#include "engine/image/formats.h"
+
 namespace cyanometer {
 namespace {
 
@@ -177,7 +180,10 @@ void read_pixels(std::string_view bytes, const std::vector<std::string>& wanted,
                                          sizeof(float) * static_cast<std::size_t>(width)));
   }
   file.setFrameBuffer(pixels);
-  file.readPixels(window.min.y, window.max.y);
+  for (int y = window.min.y; y <= window.max.y; y += kLinesBetweenLooks) {
+    look_up();
+    file.readPixels(y, std::min(y + kLinesBetweenLooks - 1, window.max.y));
+  }
 }
 
 void check_values(const ExrImage& image, const std::vector<std::string>& wanted, int width,
@@ -224,6 +230,8 @@ auto with_own_errors(Read read) {
   } catch (const ImageError&) {
     throw;
   } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
     throw ImageError("The EXR cannot be read: " + std::string(error.what()));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/attention.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -107,6 +108,7 @@ std::string encode_hdr(const Frame& frame, const Scene&) {
   std::string file = header(frame);
   std::vector<Rgbe> row(width);
   for (std::size_t y = 0; y < height; ++y) {
+    look_up();
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       row[x] = to_rgbe({rgb[0][i], rgb[1][i], rgb[2][i]});

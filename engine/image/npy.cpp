@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/attention.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -33,10 +34,12 @@ std::string encode_npy(const Frame& frame, const Scene&) {
   std::string file = header(frame);
   const std::size_t start = file.size();
   file.resize(start + pixels * channels * sizeof(float));
-  for (std::size_t c = 0; c < channels; ++c)
+  for (std::size_t c = 0; c < channels; ++c) {
+    look_up();
     for (std::size_t i = 0; i < pixels; ++i)
       std::memcpy(file.data() + start + (i * channels + c) * sizeof(float),
                   frame.planes[c].samples + i, sizeof(float));
+  }
   return file;
 }
 

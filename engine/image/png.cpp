@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/attention.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -100,6 +101,7 @@ std::string encode_png(const Frame& frame, const Scene&) {
   auto data = std::make_unique<ImageData>(file);
   std::vector<unsigned char> rows;
   for (std::size_t y = 0; y < height; y += rows_at_once) {
+    look_up();
     const std::size_t count = std::min(rows_at_once, height - y);
     rows.resize(count * row_bytes);
     for (std::size_t i = 0; i < count; ++i)

@@ -4,11 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <unordered_map>
 #include <utility>
 
+#include "engine/attention.h"
 #include "engine/optics/phase.h"
 
 namespace cyanometer {
@@ -201,17 +203,34 @@ Range important_sizes(const MieSpheres& s, double wavelength_um) {
 constexpr double finest_step = 1.0 / 4096;
 const int largest_index = static_cast<int>(std::log(largest_size_parameter) / finest_step);
 
-/// The spheres of one refractive index solved so far; the latest few indices are kept.
+/// The spheres solved so far; those of the latest few refractive indices are kept.
 class SolvedSpheres {
  public:
-  /// Calls function(index, sphere) for log size parameters index * finest_step, from first to
-  /// last.
-  template <class Function>
-  static void visit(Complex refractive_index, int first, int last, int stride,
-                    Function function) {
-    static std::mutex mutex;
-    static std::deque<SolvedSpheres> latest;
+  /// Of log size parameter i * finest_step. Looks up before it solves one.
+  static std::shared_ptr<const Sphere> at(Complex refractive_index, int i) {
+    {
+      const std::lock_guard lock(mutex);
+      const auto& spheres = of(refractive_index).spheres_;
+      const auto found = spheres.find(i);
+      if (found != spheres.end()) return found->second;
+    }
+    look_up();
+    auto sphere =
+        std::make_shared<const Sphere>(solve(std::exp(i * finest_step), refractive_index));
     const std::lock_guard lock(mutex);
+    auto& spheres = of(refractive_index).spheres_;
+    constexpr std::size_t most = 8192;  // of 2 kB
+    if (spheres.size() > most) spheres.clear();
+    spheres.emplace(i, sphere);
+    return sphere;
+  }
+
+  explicit SolvedSpheres(Complex index) : index_(index) {}
+
+ private:
+  /// @pre the mutex is locked
+  static SolvedSpheres& of(Complex refractive_index) {
+    static std::deque<SolvedSpheres> latest;
     const auto found = std::ranges::find(latest, refractive_index, &SolvedSpheres::index_);
     if (found != latest.end())
       std::rotate(latest.begin(), found, found + 1);
@@ -219,23 +238,12 @@ class SolvedSpheres {
       latest.emplace_front(refractive_index);
     constexpr std::size_t kept = 4;
     if (latest.size() > kept) latest.pop_back();
-    for (int i = first; i <= last; i += stride)
-      function(i, latest.front().at(std::min(i, largest_index)));
+    return latest.front();
   }
 
-  explicit SolvedSpheres(Complex index) : index_(index) {}
-
- private:
-  const Sphere& at(int i) {
-    constexpr std::size_t most = 8192;  // of 2 kB
-    if (spheres_.size() > most) spheres_.clear();
-    const auto found = spheres_.find(i);
-    if (found != spheres_.end()) return found->second;
-    return spheres_.emplace(i, solve(std::exp(i * finest_step), index_)).first->second;
-  }
-
+  static inline std::mutex mutex;
   Complex index_;
-  std::unordered_map<int, Sphere> spheres_;
+  std::unordered_map<int, std::shared_ptr<const Sphere>> spheres_;
 };
 
 /// Sums over spheres; cross-sections in um^2 and the phase function weighted by scattering.
@@ -272,13 +280,13 @@ Sums integrate_sizes(const MieSpheres& s, Complex index, double wavelength_um) {
   const double deviation = std::log(s.geometric_sigma);
   const double density = stride * finest_step / (deviation * std::sqrt(2 * pi));
   Sums sums;
-  SolvedSpheres::visit(
-      index, on_grid(sizes.first), on_grid(sizes.last) + stride, stride,
-      [&](int i, const Sphere& sphere) {
-        const double radius = std::exp(i * finest_step) * wavelength_um / (2 * pi);
-        const double z = std::log(radius / s.radius_um) / deviation;
-        sums.add(sphere, density * std::exp(-0.5 * z * z) * pi * radius * radius);
-      });
+  const int last = on_grid(sizes.last) + stride;
+  for (int i = on_grid(sizes.first); i <= last; i += stride) {
+    const double radius = std::exp(i * finest_step) * wavelength_um / (2 * pi);
+    const double z = std::log(radius / s.radius_um) / deviation;
+    sums.add(*SolvedSpheres::at(index, std::min(i, largest_index)),
+             density * std::exp(-0.5 * z * z) * pi * radius * radius);
+  }
   return sums;
 }
 
@@ -309,6 +317,7 @@ MieOptics mie_optics(const MieSpheres& spheres, const std::vector<double>& wavel
   const bool alike = std::log(spheres.geometric_sigma) < 4 * finest_step;
   MieOptics optics;
   for (double nm : wavelengths_nm) {
+    look_up();
     const Sums sums = (alike ? one_size : integrate_sizes)(spheres, index, nm / 1000);
     optics.extinction_um2.push_back(sums.extinction);
     optics.scattering_um2.push_back(sums.scattering);

@@ -45,6 +45,7 @@ const std::vector<double>& mie_angles_rad();
 /// (rms over the angles) up to median size parameters of some 20; of larger ones, clouds, to 4
 /// %, what is left being the ripple between the sizes that the bounded time allows. Solved
 /// spheres are kept, so that the same refractive index is cheap again; safe from any thread.
+/// Looks up between spheres (attention.h).
 MieOptics mie_optics(const MieSpheres& spheres, const std::vector<double>& wavelengths_nm);
 
 }  // namespace cyanometer

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -17,7 +18,9 @@
 namespace cyanometer {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+/// Set by a signal, read by every thread that works.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Of images of surfaces, kept while a command runs.
 constexpr std::size_t surface_bytes = std::size_t{256} << 20;
@@ -103,9 +106,9 @@ Engine command_engine(const std::string& device) {
 
 Watch command_watch() {
   // As the first process of a container, it would not be stopped by what it does not take.
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = 1; });
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = true; });
   Watch watch;
-  watch.gone = [] { return interrupted != 0; };
+  watch.gone = [] { return interrupted.load(); };
   watch.progress = [](double share) { show_progress(share); };
   return watch;
 }

@@ -47,7 +47,7 @@ void set_options(socket_t socket) {
 }  // namespace
 
 HttpServer::HttpServer(Options options, Handlers handlers)
-    : options_(options), handlers_(std::move(handlers)), wake_(eventfd(0, EFD_CLOEXEC)) {
+    : options_(std::move(options)), handlers_(std::move(handlers)), wake_(eventfd(0, EFD_CLOEXEC)) {
   set_socket_options(set_options);
   set_tcp_nodelay(true);
   new_task_queue = [this] { return new ThreadPool(options_.connections); };
@@ -104,11 +104,13 @@ void HttpServer::serve(Connection& connection) {
 
 bool HttpServer::serve_one(Connection& connection, bool last) {
   try {
-    const auto received = connection.read();
+    auto received = connection.read();
     if (!received) return false;
-    const Answer answer = handlers_.answer(received->request);
+    auto& request = received->request;
+    request.peer = options_.proxies.client(request.peer, request.header("x-forwarded-for"));
+    const Answer answer = handlers_.answer(request);
     const bool close = received->close || last || stopping_ || answer.stream;
-    return send(connection, answer, received->request.method == "HEAD", close) && !close;
+    return send(connection, answer, request.method == "HEAD", close) && !close;
   } catch (const HttpProblem& problem) {
     refuse(connection, problem);
     return false;

@@ -11,6 +11,7 @@
 #include "server/http/connection.h"
 #include "server/http/message.h"
 #include "server/http/problem.h"
+#include "server/http/proxies.h"
 
 namespace cyanometer {
 
@@ -18,6 +19,7 @@ class HttpServer : private httplib::Server {
  public:
   struct Options {
     ConnectionLimits limits;
+    Proxies proxies = {};
     std::size_t connections = 512;  ///< at once, each with a thread; more are refused with 503
   };
   struct Handlers {

@@ -19,7 +19,7 @@ struct Request {
   Fields headers;      ///< names in lower case
   std::string body;
   std::string id;    ///< safe to echo and to log
-  std::string peer;  ///< the client's address
+  std::string peer;  ///< the client's address: that of who connects, or whom a proxy names
   /// True once the client has closed the connection; may be called from any thread.
   std::function<bool()> gone = [] { return false; };
 

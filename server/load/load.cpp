@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -51,11 +52,16 @@ class Generator {
   }
 
   LoadReport run() {
-    const double cpu_before = cpu_seconds();
-    start_ = Clock::now();
     std::vector<LoadReport> parts(static_cast<std::size_t>(settings_.clients));
     std::vector<std::thread> threads;
-    for (auto& part : parts) threads.emplace_back([this, &part] { be_a_client(part); });
+    double cpu_before = 0;
+    std::barrier connected(settings_.clients, [&]() noexcept {
+      cpu_before = cpu_seconds();
+      start_ = Clock::now();
+    });
+    for (auto& part : parts) {
+      threads.emplace_back([&] { be_a_client(connected, part); });
+    }
     for (auto& thread : threads) thread.join();
     LoadReport all;
     all.seconds = ms_between(start_, Clock::now()) / 1000;
@@ -65,11 +71,14 @@ class Generator {
   }
 
  private:
-  void be_a_client(LoadReport& report) {
+  template <class Barrier>
+  void be_a_client(Barrier& connected, LoadReport& report) {
     httplib::Client client(settings_.origin);
     client.set_keep_alive(true);
     client.set_tcp_nodelay(true);
     client.set_read_timeout(600);
+    client.Get("/healthz");
+    connected.arrive_and_wait();
     for (;;) {
       const std::size_t i = next_++;
       Clock::time_point due = Clock::now();

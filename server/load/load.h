@@ -36,6 +36,7 @@ struct LoadReport {
   std::size_t sent() const;
 };
 
+/// The clock starts when all clients have connected.
 /// @throws std::runtime_error where nobody answers at the origin
 LoadReport run_load(const LoadSettings& settings);
 

@@ -1,5 +1,6 @@
 #include "server/queue/frames.h"
 
+#include "engine/attention.h"
 #include "engine/image/encode.h"
 
 namespace cyanometer {
@@ -32,6 +33,7 @@ Frames::Flown Frames::render(const Order& order, const Watch& watch) {
                                     .work = [&](Engine& engine, const Watch& w) {
                                       frame = engine.render(order.scene, order.plan, w);
                                     }});
+  const Attention attention(watch);
   return encoded(frame, order.scene, ticket);
 }
 

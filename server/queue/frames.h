@@ -47,7 +47,7 @@ class Frames {
     std::shared_ptr<const EncodedFrame> frame;
     std::shared_ptr<void> memory;  ///< as Got's
   };
-  /// A frame that was rendered by the job of that ticket.
+  /// A frame that was rendered by the job of that ticket. Looks up (engine/attention.h).
   Flown encoded(const Frame& frame, const Scene& scene, const Ticket& ticket);
 
   struct Counts {

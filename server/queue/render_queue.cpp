@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/attention.h"
+
 namespace cyanometer {
 namespace {
 
@@ -93,13 +95,28 @@ std::shared_ptr<RenderQueue::Entry> RenderQueue::enter(Job job) {
   return entry;
 }
 
-void RenderQueue::admit(const std::string& client) {
+std::optional<QueueFull::Whose> RenderQueue::full(const std::string& client) const {
+  if (waiting_.size() >= options_.capacity) return QueueFull::Whose::all;
   const auto held = waiting_of_.find(client);
-  const bool full = waiting_.size() >= options_.capacity;
   const bool greedy = held != waiting_of_.end() && held->second >= share();
-  if (!full && !greedy) return;
+  return greedy ? std::optional(QueueFull::Whose::client) : std::nullopt;
+}
+
+void RenderQueue::admit(const std::string& client) {
+  const auto whose = full(client);
+  if (!whose) return;
   ++counts_.rejected;
-  throw QueueFull(full ? QueueFull::Whose::all : QueueFull::Whose::client, retry_after_s());
+  throw QueueFull(*whose, retry_after_s());
+}
+
+bool RenderQueue::full_for(const std::string& client) const {
+  const std::lock_guard lock(mutex_);
+  return full(client).has_value();
+}
+
+void RenderQueue::require_place(const std::string& client) {
+  const std::lock_guard lock(mutex_);
+  admit(client);
 }
 
 void RenderQueue::put(const std::shared_ptr<Entry>& entry) {
@@ -120,7 +137,7 @@ void RenderQueue::wait(Entry& entry) {
   std::unique_lock lock(mutex_);
   while (entry.state != Entry::State::done) {
     // A running job looks after itself between tiles; a waiting one is looked after from here.
-    constexpr auto glance = std::chrono::milliseconds(30);
+    constexpr auto glance = std::chrono::milliseconds(50);
     entry.finished.wait_for(lock, glance);
     if (entry.state != Entry::State::waiting) continue;
     if (Clock::now() >= watch.deadline) {
@@ -276,6 +293,7 @@ void RenderQueue::attempt(Entry& entry) {
     give_way(entry);
     return entry.job.watch.gone();
   };
+  const Attention attention(watch);
   const auto start = Clock::now();
   try {
     entry.job.work(*engine_, watch);

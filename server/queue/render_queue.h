@@ -82,6 +82,11 @@ class RenderQueue {
   /// @throws QueueFull, Cancelled, DeviceUnavailable, and what the work throws
   Ticket run(Job job);
 
+  /// Whether a job of the client would be refused now.
+  bool full_for(const std::string& client) const;
+  /// @throws QueueFull as run would
+  void require_place(const std::string& client);
+
   /// Counts so many bytes among those of the frames alive, until the handle dies.
   std::shared_ptr<void> hold(std::size_t bytes);
 
@@ -104,6 +109,7 @@ class RenderQueue {
   struct Entry;
   using Clock = std::chrono::steady_clock;
   std::shared_ptr<Entry> enter(Job job);
+  std::optional<QueueFull::Whose> full(const std::string& client) const;
   void admit(const std::string& client);
   void wait(Entry& entry);
   void withdraw(Entry& entry, Cancelled::Reason reason);

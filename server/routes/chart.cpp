@@ -121,6 +121,7 @@ class LiveChart {
 
 Answer chart(const Request& request, Service& service) {
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const auto asked = scene_request(body_document(request));
   check_frame(asked.scene, service.config);
   const auto live = std::make_shared<LiveChart>(request, service, asked.scene);

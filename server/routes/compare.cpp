@@ -47,6 +47,7 @@ Answer figures_answer(const Comparison& comparison) {
 
 Answer compare_scenes(const Request& request, Service& service, bool picture) {
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const auto asked = read_compare_request(body_document(request));
   within("/a", [&] { check_frame(asked.a, service.config); });
   within("/b", [&] { check_frame(asked.b, service.config); });
@@ -75,6 +76,7 @@ ExrImage read_body(const Request& request, const Scene& scene) {
 
 Answer judge_picture(const Request& request, Service& service, bool picture) {
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const auto asked = scene_request(link_document(request));
   check_frame(asked.scene, service.config);
   Comparison figures;

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "engine/attention.h"
 #include "engine/fingerprint.h"
 #include "engine/image/picture.h"
 #include "engine/scene/document.h"
@@ -92,6 +93,7 @@ std::string composite_tag(const Asked& asked, const Plan& plan, const Request& r
 
 Answer composite(const Request& request, Service& service) {
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const Asked asked = read_asked(request, service);
   const Scene& scene = asked.scene.scene;
   Frame frame;
@@ -110,6 +112,7 @@ Answer composite(const Request& request, Service& service) {
                          }});
   const PlannedFrame planned{asked.scene, frame.plan,
                              composite_tag(asked, frame.plan, request, service)};
+  const Attention attention(watch);
   const auto [encoded, memory] = service.frames.encoded(frame, scene, ticket);
   Answer answer;
   answer.headers = planned_fields(planned);

@@ -74,6 +74,7 @@ class LiveExplanation {
 Answer explain_request(const Request& request, Service& service) {
   const bool live =
       negotiated(request.header("accept"), {"application/json", "application/x-ndjson"}) == 1;
+  service.admission.check(request);
   const auto asked = scene_request(body_document(request));
   check_frame(asked.scene, service.config);
   if (!live) {

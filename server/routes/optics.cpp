@@ -1,6 +1,7 @@
 // POST /v1/optics: a scene's constituents as curves.
 #include <nlohmann/json.hpp>
 
+#include "engine/attention.h"
 #include "engine/physics/curves.h"
 #include "server/routes/answers.h"
 #include "server/routes/json_answer.h"
@@ -34,6 +35,8 @@ json curves_document(const Curves& curves) {
 }
 
 Answer optics(const Request& request, Service& service) {
+  const Watch watch = service.watch(request);
+  const Attention attention(watch);
   const auto asked = scene_request(body_document(request));
   check_scene(asked.scene, service.config);
   return json_answer(curves_document(constituent_curves(asked.scene)));
@@ -70,7 +73,7 @@ json operation() {
         {"constituents", {{"type", "object"}, {"additionalProperties", constituent}}}}}};
   return {{"requestBody", openapi::json_body(openapi::scene_schema_reference())},
           {"responses",
-           openapi::responses(openapi::json_content(answer), {400, 408, 411, 413, 415, 422})}};
+           openapi::responses(openapi::json_content(answer), {400, 408, 411, 413, 415, 422, 504})}};
 }
 
 }  // namespace

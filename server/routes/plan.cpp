@@ -1,6 +1,7 @@
 // POST and GET /v1/plan: what would be done for a scene.
 #include <nlohmann/json.hpp>
 
+#include "engine/attention.h"
 #include "server/routes/answers.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
@@ -17,6 +18,7 @@ Answer plan(const json& document, const Request& request, Service& service) {
   const auto asked = scene_request(document);
   check_frame(asked.scene, service.config);
   const Plan plan = service.plans.get(asked.scene, request.peer, watch).plan;
+  const Attention attention(watch);
   return json_answer(plan_document(asked.scene, plan));
 }
 

@@ -16,6 +16,7 @@ using nlohmann::json;
 
 Answer radiance(const Request& request, Service& service) {
   const Watch watch = service.watch(request);
+  service.admission.check(request);
   const auto asked = read_radiance_request(body_document(request));
   Radiances radiances;
   within("/scene", [&] {

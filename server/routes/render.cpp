@@ -46,11 +46,13 @@ std::optional<Answer> without_frame(const PlannedFrame& planned, const Request& 
   return with_tag(answer, request, planned.tag);
 }
 
-SceneRequest frame_request(const json& document, const Request& request,
-                           const Service& service) {
+PlannedFrame frame_request(const json& document, const Request& request, Service& service,
+                           const Watch& watch) {
   const auto asked = scene_request(negotiate_format(document, request));
   check_frame(asked.scene, service.config);
-  return asked;
+  auto planned = plan_frame(asked, request.peer, service, watch);
+  service.admission.remember(request);
+  return planned;
 }
 
 }  // namespace
@@ -64,8 +66,9 @@ Route render_post() {
           },
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
-            const auto asked = frame_request(body_document(request), request, service);
-            const auto planned = plan_frame(asked, request.peer, service, watch);
+            service.admission.check(request);
+            const auto planned =
+                frame_request(body_document(request), request, service, watch);
             return render(planned, request, service, false, watch);
           }};
 }
@@ -80,8 +83,9 @@ Route render_link() {
           },
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
-            const auto asked = frame_request(link_document(request), request, service);
-            const auto planned = plan_frame(asked, request.peer, service, watch);
+            service.admission.check(request);
+            const auto planned =
+                frame_request(link_document(request), request, service, watch);
             if (auto answer = without_frame(planned, request)) return *answer;
             return render(planned, request, service, true, watch);
           }};

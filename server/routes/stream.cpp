@@ -203,6 +203,7 @@ Route stream_post() {
           },
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
+            service.admission.check(request);
             return stream(sequence_of_body(request, service.config, watch), request, service,
                           watch);
           }};
@@ -223,6 +224,7 @@ Route stream_link() {
           },
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
+            service.admission.check(request);
             return stream(sequence_of_link(request, service.config, watch), request, service,
                           watch);
           }};

@@ -83,7 +83,7 @@ TEST(Framing, AClientThatAsksFirstIsToldToContinue) {
   raw.send(post("Expect: 100-continue\r\nContent-Length: 2\r\n" + closing));
   std::this_thread::sleep_for(100ms);
   raw.send("{}");
-  const auto answer = raw.receive();
+  const auto answer = raw.receive(60s);  // a first plan, which the server's closing ends
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 200")) << answer;
 }
 

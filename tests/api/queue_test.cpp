@@ -219,6 +219,98 @@ TEST(Queue, AFullOneRefusesAndSaysWhenToComeBack) {
   hold.let_go();
 }
 
+/// A daemon whose device is held and whose queue is full of jobs of one client.
+struct Full {
+  Full(const Config& config, const std::string& client, std::size_t jobs) : daemon(config) {
+    daemon.start();
+    wait_until_ready(daemon);
+    hold.emplace(daemon.service().queue);
+    for (std::size_t i = 0; i < jobs; ++i) {
+      waiting.push_back(std::async(std::launch::async, [this, client] {
+        daemon.service().queue.run({.client = client, .work = [](Engine&, const Watch&) {}});
+      }));
+    }
+    wait_for_depth(daemon.service().queue, jobs);
+  }
+  httplib::Result post(const nlohmann::json& scene, const httplib::Headers& headers = {}) {
+    return client_of(daemon).Post("/v1/render", headers, scene.dump(), "application/json");
+  }
+  static Config with_places(int places) {
+    Config config = free_port();
+    config.queue = places;
+    return config;
+  }
+
+  Daemon daemon;
+  std::vector<std::future<void>> waiting;
+  std::optional<Hold> hold;
+};
+
+TEST(Queue, AFullOneRefusesBeforeItReads) {
+  Full full(Full::with_places(1), "a", 1);
+  for (const auto* path : {"/v1/render", "/v1/radiance", "/v1/compare", "/v1/explain",
+                           "/v1/chart", "/v1/stream", "/v1/composite"}) {
+    const auto answer = client_of(full.daemon).Post(path, "no scene", "application/json");
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 503) << path;
+    EXPECT_TRUE(answer->has_header("Retry-After")) << path;
+  }
+  EXPECT_EQ(full.daemon.service().queue.counts().rejected, 7u);
+  // What takes no place is answered, and said to be wrong, as ever.
+  EXPECT_EQ(client_of(full.daemon).Post("/v1/optics", "no scene", "")->status, 400);
+}
+
+TEST(Queue, AFullOneAnswersWithAFrameThatWasKept) {
+  auto& queue = shared_daemon().service().queue;
+  const auto post = [](const nlohmann::json& scene) {
+    return client().Post("/v1/render", scene.dump(), "application/json");
+  };
+  const auto first = post(small_scene());
+  std::vector<std::future<void>> waiting;
+  const Hold hold(queue);
+  for (std::size_t i = 0; i < queue.capacity(); ++i) {
+    waiting.push_back(std::async(std::launch::async, [&queue, i] {
+      queue.run({.client = std::to_string(i), .work = [](Engine&, const Watch&) {}});
+    }));
+  }
+  wait_for_depth(queue, queue.capacity());
+  const auto again = post(small_scene());
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->status, 200);
+  EXPECT_EQ(again->get_header_value("Cache-Status"), "cyanometer; hit");
+  EXPECT_TRUE(again->body == first->body);
+  auto other = small_scene();
+  other["image"]["exposure_ev"] = 1;
+  EXPECT_EQ(post(other)->status, 503);
+}
+
+TEST(Queue, BehindAProxyClientsHaveTheirOwnShares) {
+  Config config = Full::with_places(4);
+  config.trusted_proxy = "127.0.0.1";
+  Full full(config, "203.0.113.1", 3);
+  const auto asked_by = [&](const std::string& forwarded_for) {
+    auto scene = small_scene();
+    scene["image"]["exposure_ev"] = 2;
+    return full
+        .post(scene, {{"X-Forwarded-For", forwarded_for}, {"Cyanometer-Deadline", "0.2"}})
+        ->status;
+  };
+  EXPECT_EQ(asked_by("203.0.113.1"), 429);
+  EXPECT_EQ(asked_by("203.0.113.2"), 504);  // it had a place
+  EXPECT_EQ(asked_by("203.0.113.2, 203.0.113.1"), 429);
+}
+
+TEST(Queue, WhoIsNoProxyIsNotBelieved) {
+  Config config = Full::with_places(4);
+  config.trusted_proxy = "192.0.2.0/24";
+  Full full(config, "127.0.0.1", 3);
+  auto scene = small_scene();
+  scene["image"]["exposure_ev"] = 2;
+  const auto answer = full.post(
+      scene, {{"X-Forwarded-For", "203.0.113.1"}, {"Cyanometer-Deadline", "0.2"}});
+  EXPECT_EQ(answer->status, 429);
+}
+
 TEST(Queue, ADeadlineEndsWaitingAndRenderingWith504) {
   Config config = free_port();
   config.deadline_s = 0.3;

@@ -23,6 +23,7 @@
 #include <random>
 #include <sstream>
 
+#include "engine/attention.h"
 #include "engine/image/encode.h"
 
 namespace cyanometer {
@@ -133,6 +134,19 @@ TEST(Encodings, TheSameFrameHasTheSameBytes) {
   const Picture picture = gradient({64, 48});
   for (const Encoding& one : encodings())
     EXPECT_EQ(encoded(picture, one.format), encoded(picture, one.format)) << one.name;
+}
+
+TEST(Encodings, StopWhereNobodyWaits) {
+  const Picture picture = gradient({256, 1024});
+  for (const ImageFormat format :
+       {ImageFormat::png, ImageFormat::exr, ImageFormat::hdr, ImageFormat::npy}) {
+    Watch watch;
+    int looks = 0;
+    watch.gone = [&] { return ++looks == 2; };
+    const Attention attention(watch);
+    EXPECT_THROW(encoded(picture, format), Cancelled);
+    EXPECT_EQ(looks, 2);
+  }
 }
 
 TEST(Encodings, ValuesThatAreNoNumbersDoNoHarm) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/attention.h"
+#include "engine/engine.h"
 #include "engine/optics/phase.h"
 
 namespace cyanometer {
@@ -171,6 +173,27 @@ TEST(MieSizes, ExtremesStayFinite) {
       for (double value : optics.phase[w]) EXPECT_TRUE(std::isfinite(value) && value >= 0);
     }
   }
+}
+
+TEST(Mie, StopsWhereNobodyWaits) {
+  const MieSpheres spheres;
+  const auto solve = [&] { mie_optics(spheres, {450, 550, 650}); };
+  Watch watch;
+  int looks = 0;
+  watch.gone = [&] { return ++looks >= 2; };
+  {
+    const Attention attention(watch);
+    EXPECT_THROW(solve(), Cancelled);
+    EXPECT_EQ(looks, 2);
+    {
+      const Watch other;
+      const Attention within(other);
+      EXPECT_NO_THROW(solve());
+    }
+    EXPECT_THROW(solve(), Cancelled);
+  }
+  EXPECT_NO_THROW(solve());
+  EXPECT_EQ(looks, 3);
 }
 
 }  // namespace
