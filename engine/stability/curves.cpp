@@ -59,6 +59,29 @@ StabilityRow over_altitude() {
   return row;
 }
 
+/// Titan from seven radii away, its whole disc or what is left of it: the haze is thick, the
+/// light comes through its edge, and most of what is seen lies in twilight.
+StabilityRow over_phase() {
+  StabilityRow row = curve("crescent", "phase angle of Titan, deg", {30, 90, 120, 150, 165},
+                           [](double phase_deg) -> json {
+                             return {{"preset", "titan"},
+                                     {"sun", {{"elevation_deg", 90 - phase_deg}}},
+                                     {"camera",
+                                      {{"altitude_km", 18000},
+                                       {"pitch_deg", -90},
+                                       {"projection", "perspective"},
+                                       {"fov_deg", 18}}},
+                                     {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                                     {"image", {{"width", 160}, {"height", 160}}}};
+                           });
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+    auto error = trial.error(scene(x), sample_directions(read_scene(scene(x)), 64));
+    if (!error) return {};
+    return Measured(*error);
+  };
+  return row;
+}
+
 }  // namespace
 
 const std::vector<StabilityRow>& stability_curves() {
@@ -76,7 +99,8 @@ const std::vector<StabilityRow>& stability_curves() {
       curve("radius", "radius, km, the air as it is", {300, 1000, 3000, 6360, 20000, 60000},
             [](double x) {
               return changed(at_sun(5), {{"planet", {{"radius_km", x}}}});
-            })};
+            }),
+      over_phase()};
   return curves;
 }
 

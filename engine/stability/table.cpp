@@ -14,6 +14,35 @@ std::string sweep_of(const StabilityRow& row) {
   return all;
 }
 
+void head(std::ostream& table, const char* first) {
+  table << first;
+  for (const std::string& method : stability_subjects()) table << " `" << method << "` |";
+  table << "\n|---|---|---|";
+  for (std::size_t i = 0; i < stability_subjects().size(); ++i) table << "---|";
+  table << "\n";
+}
+
+/// Errors along quantities of a scene, a value of it a line.
+void write_curves(std::ostream& table, const StabilityReport& report) {
+  head(table, "\n| errors along | | |");
+  for (const StabilityRow& curve : stability_curves()) {
+    for (double trigger : curve.sweep) {
+      table << "| " << (trigger == curve.sweep.front() ? curve.trigger : "") << " | "
+            << number(trigger) << " | |";
+      for (const std::string& method : stability_subjects()) {
+        const auto found =
+            std::ranges::find_if(report.points, [&](const StabilityPoint& point) {
+              return point.row == 0 && point.note == curve.name && point.method == method &&
+                     point.trigger == trigger;
+            });
+        const bool measured = found != report.points.end() && found->outcome == Outcome::holds;
+        table << " " << (measured ? figure(found->value) : "") << " |";
+      }
+      table << "\n";
+    }
+  }
+}
+
 }  // namespace
 
 std::string figure(double value) {
@@ -80,11 +109,7 @@ StabilityCell cell_of(const StabilityReport& report, int row, const std::string&
 
 std::string stability_table(const StabilityReport& report) {
   std::ostringstream table;
-  table << "| | row | bound |";
-  for (const std::string& method : stability_subjects()) table << " `" << method << "` |";
-  table << "\n|---|---|---|";
-  for (std::size_t i = 0; i < stability_subjects().size(); ++i) table << "---|";
-  table << "\n";
+  head(table, "| | row | bound |");
   for (const StabilityRow& row : stability_rows()) {
     table << "| " << row.number << " | " << row.name << " | "
           << (row.bound > 0 ? figure(row.bound) : "none") << " |";
@@ -100,6 +125,7 @@ std::string stability_table(const StabilityReport& report) {
     table << "| " << row.number << " | " << row.quantity << " | " << row.trigger << ": "
           << sweep_of(row) << " |\n";
   }
+  write_curves(table, report);
   return table.str();
 }
 

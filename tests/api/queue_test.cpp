@@ -306,8 +306,8 @@ TEST(Queue, WhoIsNoProxyIsNotBelieved) {
   Full full(config, "127.0.0.1", 3);
   auto scene = small_scene();
   scene["image"]["exposure_ev"] = 2;
-  const auto answer = full.post(
-      scene, {{"X-Forwarded-For", "203.0.113.1"}, {"Cyanometer-Deadline", "0.2"}});
+  const auto answer =
+      full.post(scene, {{"X-Forwarded-For", "203.0.113.1"}, {"Cyanometer-Deadline", "0.2"}});
   EXPECT_EQ(answer->status, 429);
 }
 
