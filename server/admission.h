@@ -1,5 +1,5 @@
-// Who is turned away before the request is read: under overload that costs a tenth of finding it
-// out when the scene is parsed and planned.
+// Who is turned away before the request is read: under overload that costs a tenth of finding
+// it out when the scene is parsed and planned.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ class Admission {
 
   /// For requests that take a place in the queue. What is wrong with one is then not said: who
   /// comes back when there is room is told.
-  /// @throws QueueFull where a job of the request's client would be refused now, unless its like
-  /// was remembered
+  /// @throws QueueFull where a job of the request's client would be refused now, unless its
+  /// like was remembered
   void check(const Request& request);
   /// That such a request may need no place: its frame may be kept, or in flight.
   void remember(const Request& request);

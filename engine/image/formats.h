@@ -9,8 +9,9 @@
 namespace cyanometer {
 
 // All take a frame whose pixels are there (Frame::rgbx for PNG and JPEG, else planes) and
-// return the file; they throw std::runtime_error with the library's own words when it fails. They
-// look up between lines (engine/attention.h) where the library lets them: turbojpeg does not.
+// return the file; they throw std::runtime_error with the library's own words when it fails.
+// They look up between lines (engine/attention.h) where the library lets them: turbojpeg does
+// not.
 std::string encode_png(const Frame& frame, const Scene& scene);
 std::string encode_exr(const Frame& frame, const Scene& scene);
 std::string encode_jpeg(const Frame& frame, const Scene& scene);

@@ -106,7 +106,8 @@ Engine command_engine(const std::string& device) {
 
 Watch command_watch() {
   // As the first process of a container, it would not be stopped by what it does not take.
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = true; });
+  for (const int number : {SIGINT, SIGTERM})
+    std::signal(number, [](int) { interrupted = true; });
   Watch watch;
   watch.gone = [] { return interrupted.load(); };
   watch.progress = [](double share) { show_progress(share); };

@@ -47,7 +47,9 @@ void set_options(socket_t socket) {
 }  // namespace
 
 HttpServer::HttpServer(Options options, Handlers handlers)
-    : options_(std::move(options)), handlers_(std::move(handlers)), wake_(eventfd(0, EFD_CLOEXEC)) {
+    : options_(std::move(options)),
+      handlers_(std::move(handlers)),
+      wake_(eventfd(0, EFD_CLOEXEC)) {
   set_socket_options(set_options);
   set_tcp_nodelay(true);
   new_task_queue = [this] { return new ThreadPool(options_.connections); };

@@ -1,4 +1,5 @@
-// POST /v1/explain: what each ingredient of a scene is worth, with the share done while it works.
+// POST /v1/explain: what each ingredient of a scene is worth, with the share done while it
+// works.
 #include "engine/accuracy/ingredients.h"
 
 #include <atomic>
@@ -31,8 +32,8 @@ json explained(const Request& request, Service& service, const Scene& scene,
 
 constexpr std::chrono::milliseconds pace{200};  // of lines while it works
 
-/// An explanation while it is made: the queue's thread works, the connection's own tells how far
-/// it is, so that a slow reader never holds the device.
+/// An explanation while it is made: the queue's thread works, the connection's own tells how
+/// far it is, so that a slow reader never holds the device.
 class LiveExplanation {
  public:
   LiveExplanation(Request request, Service& service, Scene scene)
@@ -112,8 +113,8 @@ json operation() {
   json content = openapi::json_content(answer);
   content["application/x-ndjson"] = {{"schema", line}};
   return {{"requestBody", openapi::json_body(openapi::scene_schema_reference())},
-          {"responses", openapi::responses(
-                            content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
+          {"responses",
+           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
 }
 
 }  // namespace

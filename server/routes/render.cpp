@@ -67,8 +67,7 @@ Route render_post() {
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
             service.admission.check(request);
-            const auto planned =
-                frame_request(body_document(request), request, service, watch);
+            const auto planned = frame_request(body_document(request), request, service, watch);
             return render(planned, request, service, false, watch);
           }};
 }
@@ -84,8 +83,7 @@ Route render_link() {
           [](const Request& request, Service& service) {
             const Watch watch = service.watch(request);
             service.admission.check(request);
-            const auto planned =
-                frame_request(link_document(request), request, service, watch);
+            const auto planned = frame_request(link_document(request), request, service, watch);
             if (auto answer = without_frame(planned, request)) return *answer;
             return render(planned, request, service, true, watch);
           }};

@@ -311,7 +311,8 @@ TEST(Abuse, ClientsThatLeave) {
                 quantile(each, 1));
   }
   std::printf(
-      "%zu clients left: nothing of their work was there after %.0f ms (half), %.0f ms (95 %%), "
+      "%zu clients left: nothing of their work was there after %.0f ms (half), %.0f ms (95 "
+      "%%), "
       "%.0f ms (99 %%), %.0f ms (worst); where kernels were compiled first, %.0f ms at worst\n",
       times.size(), quantile(times, 0.5), quantile(times, 0.95), quantile(times, 0.99),
       quantile(times, 1), first);

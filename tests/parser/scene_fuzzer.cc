@@ -1,6 +1,6 @@
 // libFuzzer's target: any bytes are read as a scene or refused; what is read has one canonical
-// form, which reads back as the same scene. Inputs grow from documents that the schema describes.
-// (Not a .cpp: those are programs of GoogleTest.)
+// form, which reads back as the same scene. Inputs grow from documents that the schema
+// describes. (Not a .cpp: those are programs of GoogleTest.)
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -46,7 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t si
   return 0;
 }
 
-extern "C" std::size_t LLVMFuzzerMutate(unsigned char* bytes, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerMutate(unsigned char* bytes, std::size_t size,
+                                        std::size_t most);
 
 /// Some inputs are fresh documents; the others are changed byte by byte.
 extern "C" std::size_t LLVMFuzzerCustomMutator(unsigned char* bytes, std::size_t size,
