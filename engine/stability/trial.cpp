@@ -26,6 +26,11 @@ const MethodDescription* described(const std::string& name) {
 /// About as many as an irradiance is summed from, whose noise they share.
 constexpr std::size_t hemisphere_rays = 16384;
 
+std::vector<double> wavelengths_of(const Scene& scene) {
+  const auto& named = scene.spectrum.wavelengths_nm;
+  return named.empty() ? std::vector<double>{680, 550, 440} : named;
+}
+
 [[noreturn]] void broken(const char* what, double value, const Direction& at) {
   char text[128];
   std::snprintf(text, sizeof text, "%s %g at elevation %g, azimuth %g", what, value,
@@ -46,15 +51,14 @@ void check(const Radiances& radiances, const std::vector<Direction>& directions)
 
 template <class Take>
 Samples traced(const Scene& scene, const std::vector<Direction>& directions, const Take& take) {
-  const std::size_t wavelengths = scene.spectrum.wavelengths_nm.size();
-  oracle::Adaptive adaptive(pack<double>(make_problem(scene, scene.spectrum.wavelengths_nm)),
-                            1e-6);
+  const std::vector<double> wavelengths_nm = wavelengths_of(scene);
+  oracle::Adaptive adaptive(pack<double>(make_problem(scene, wavelengths_nm)), 1e-6);
   Samples values;
   for (const Direction& d : directions) {
     double e = glm::radians(d.elevation_deg), a = glm::radians(d.azimuth_deg);
     std::vector<double> ray = take(
         adaptive.trace({std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)}));
-    ray.resize(wavelengths);
+    ray.resize(wavelengths_nm.size());
     values.push_back(std::move(ray));
   }
   return values;
@@ -106,8 +110,7 @@ Plan Trial::plan_of(const Scene& scene, std::size_t directions) const {
   Plan plan;
   plan.method = method_;
   plan.options = scene.method.options;
-  plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
-  if (plan.wavelengths_nm.empty()) plan.wavelengths_nm = {680, 550, 440};
+  plan.wavelengths_nm = wavelengths_of(scene);
   if (described(method_)->random) {
     // Enough walks that noise does not hide what is measured.
     double walks = most_work_ / static_cast<double>(directions);
