@@ -40,9 +40,10 @@ SkyRay sky_ray(int e) {
   bool ground = e >= push.elevations;
   Real share = Real(ground ? e - push.elevations : e) / Real(push.elevations - 1);
   Vec3 axis = sun_axis();
-  // At the horizon itself and at the edge of the air rounding doesn't decide what a ray meets.
-  Path path = path_from_camera(
-      direction_of_share(clamp(share, 2e-3, 1.0 - 2e-3), ground, 0.0, axis_forward(axis)));
+  // At the horizon itself and, from outside, at the edge of the air rounding doesn't decide what a ray meets.
+  Real most = scene.camera_altitude_km > scene.thickness_km ? 1.0 - 2e-3 : 1.0;
+  Path path =
+      path_from_camera(direction_of_share(clamp(share, 2e-3, most), ground, 0.0, axis_forward(axis)));
   SkyRay ray;
   ray.altitude_km = path.altitude_km;
   ray.mu = path.mu;
