@@ -8,6 +8,7 @@
 #include "engine/accuracy/dice.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
+#include "engine/stability/trial.h"
 
 namespace cyanometer {
 namespace {
@@ -146,10 +147,8 @@ class Draw {
 /// @throws SceneError where a document is refused at any stage
 void prepare(const json& document) {
   const Scene scene = read_scene(document);
-  std::vector<double> wavelengths_nm = scene.spectrum.wavelengths_nm;
-  if (wavelengths_nm.empty()) wavelengths_nm = {680, 550, 440};
-  make_problem(scene, wavelengths_nm);
-  make_output(scene, wavelengths_nm);
+  make_problem(scene, wavelengths_of(scene));
+  make_output(scene, wavelengths_of(scene));
 }
 
 /// Takes out what is refused, member by member.

@@ -26,11 +26,6 @@ const MethodDescription* described(const std::string& name) {
 /// About as many as an irradiance is summed from, whose noise they share.
 constexpr std::size_t hemisphere_rays = 16384;
 
-std::vector<double> wavelengths_of(const Scene& scene) {
-  const auto& named = scene.spectrum.wavelengths_nm;
-  return named.empty() ? std::vector<double>{680, 550, 440} : named;
-}
-
 [[noreturn]] void broken(const char* what, double value, const Direction& at) {
   char text[128];
   std::snprintf(text, sizeof text, "%s %g at elevation %g, azimuth %g", what, value,
@@ -71,6 +66,11 @@ Samples channel(const Samples& values, std::size_t c) {
 }
 
 }  // namespace
+
+std::vector<double> wavelengths_of(const Scene& scene) {
+  const auto& named = scene.spectrum.wavelengths_nm;
+  return named.empty() ? std::vector<double>{680, 550, 440} : named;
+}
 
 std::vector<Direction> fan(const std::vector<double>& elevations_deg,
                            const std::vector<double>& azimuths_deg) {

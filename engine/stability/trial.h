@@ -24,6 +24,9 @@ std::vector<Direction> fan(const std::vector<double>& elevations_deg,
 /// `count` values from `first` to `last`, both of them among them.
 std::vector<double> spaced(double first, double last, int count);
 
+/// The scene's own, or three where it leaves them to the planner.
+std::vector<double> wavelengths_of(const Scene& scene);
+
 class Trial {
  public:
   /// @param method  one of `methods()`, or `auto`

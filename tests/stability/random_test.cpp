@@ -8,7 +8,7 @@
 namespace cyanometer {
 namespace {
 
-/// None broken (a refusal names its limit), and no picture that changes faster than its scene.
+/// None broken or refused, and no picture that changes faster than its scene.
 void expect_sound(int scenes, const RandomTrialSettings& settings, int nudge_each) {
   Engine engine;
   for (int seed = 0; seed < scenes; ++seed) {
@@ -16,6 +16,7 @@ void expect_sound(int scenes, const RandomTrialSettings& settings, int nudge_eac
     each.nudge = seed % nudge_each == 0;
     nlohmann::json trial = random_trial(engine, static_cast<std::uint64_t>(seed), each);
     EXPECT_TRUE(trial.at("failures").empty()) << trial;
+    EXPECT_TRUE(trial.at("refusals").empty()) << trial;
     if (!trial.contains("jumps")) continue;
     for (const auto& [method, jump] : trial.at("jumps").items())
       EXPECT_LE(jump.get<double>(), 1) << method << ": " << trial;
