@@ -137,6 +137,7 @@ Real node_of_sun(MomentGrid grid, SunRange range, Real mu_s) {
 struct CubicTaps {
   int first;
   Vec4 weights;
+  Vec2 outer;   // weights of the first and the last where they lie outside of the two about the place, else 0
 };
 
 CubicTaps cubic_taps(Real node, int nodes) {
@@ -147,6 +148,7 @@ CubicTaps cubic_taps(Real node, int nodes) {
   Real t2 = t - 2.0;
   Real t3 = t - 3.0;
   taps.weights = Vec4(-t1 * t2 * t3 / 6.0, 0.5 * t * t2 * t3, -0.5 * t * t1 * t3, t * t1 * t2 / 6.0);
+  taps.outer = Vec2(t < 1.0 ? 0.0 : taps.weights.x, t > 2.0 ? 0.0 : taps.weights.w);
   return taps;
 }
 
@@ -155,12 +157,19 @@ Vec4 cubic_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
          value[3] * taps.weights.w;
 }
 
-// The same, kept from overshooting where the values fall off a cliff.
+// The same, kept from overshooting where the values fall off a cliff, as light does where night begins: on
+// either side the curve may bend by four times what it bends on the other and a half more, which is never
+// reached where a logarithm or a ratio is smooth, and stays within a tenth of their range.
 Vec4 limited_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
   Vec4 low = min(min(value[0], value[1]), min(value[2], value[3]));
   Vec4 high = max(max(value[0], value[1]), max(value[2], value[3]));
   Vec4 margin = 0.1 * (high - low);
-  return clamp(cubic_sum(value, taps), low - margin, high + margin);
+  Vec4 first = value[0] - 2.0 * value[1] + value[2];
+  Vec4 last = value[1] - 2.0 * value[2] + value[3];
+  Vec4 most = 0.5 + 4.0 * min(abs(first), abs(last));
+  Vec4 sum = cubic_sum(value, taps) + (clamp(first, -most, most) - first) * taps.outer.x +
+             (clamp(last, -most, most) - last) * taps.outer.y;
+  return clamp(sum, low - margin, high + margin);
 }
 
 // --- Directions ---------------------------------------------------------------------------------------
@@ -253,20 +262,64 @@ RayNode ray_node(Cuts cuts, Real x, Real weight) {
 // the ray sends, beside the terms in azimuth that are known exactly, follows that smoothly: one to three
 // Chebyshev points in x stand for all azimuths.
 
-CONSTANT int MOST_POINTS = 5;
-
 // How many, where that many spacings of the sun's nodes lie between the azimuths 0 and pi.
-int azimuth_points(Real spacings) { return spacings > 2.5 ? 5 : spacings > 1.0 ? 3 : spacings > 0.3 ? 2 : 1; }
+int azimuth_points(Real spacings) { return spacings > 1.0 ? 3 : spacings > 0.3 ? 2 : 1; }
+Real most_spacings(int points) { return points == 1 ? 0.3 : 1.0; }
 
 Real azimuth_point(int p, int points) {
   return points == 1 ? 0.0 : cos(PI * (Real(p) + 0.5) / Real(points));
 }
+
+// Part of the way at which one rule changes over to the next, by their shares: light would jump where a scene
+// that changes a little changed its rule at once.
+CONSTANT Real RULE_CHANGE = 0.05;
+
+// From 0 to 1 as the spacings come to where the next rule has taken over.
+Real share_of_next(Real spacings, Real most) {
+  return clamp(1.0 - (most / max(spacings, Real(1e-6)) - 1.0) / RULE_CHANGE, 0.0, 1.0);
+}
+
+// Those points and, where the rule changes, the next more numerous ones beside them.
+struct AzimuthRule {
+  int points;
+  int more;
+  Real share_of_more;
+};
+
+AzimuthRule azimuth_rule(Real spacings) {
+  AzimuthRule rule;
+  rule.points = azimuth_points(spacings);
+  int next = azimuth_points(spacings * (1.0 + RULE_CHANGE));
+  rule.more = next > rule.points ? next : 0;
+  rule.share_of_more = rule.more > 0 ? share_of_next(spacings, most_spacings(rule.points)) : 0.0;
+  return rule;
+}
+
+// How much of order one is traced at each azimuth by itself. In twilight it falls by powers of ten from one end
+// of x to the other, and no short series of it stays positive: at the sun's elevation -6 deg that made an error
+// of 7 %, where now it is 1 %.
+Real share_of_each_azimuth(Real spacings) { return share_of_next(spacings, 2.5); }
 
 // What the value at a point adds to the coefficients of a series in T_0, T_1 and T_2.
 Vec3 chebyshev_shares(Real point, int points) {
   Real mean = 1.0 / Real(points);
   Real bend = points > 2 ? 2.0 * mean * (2.0 * point * point - 1.0) : 0.0;
   return Vec3(mean, 2.0 * mean * point, bend);
+}
+
+// One of a rule's points, and its shares.
+struct AzimuthSample {
+  Real x;
+  Vec3 shares;
+};
+
+AzimuthSample azimuth_sample(AzimuthRule rule, int p) {
+  bool more = p >= rule.points;
+  int points = more ? rule.more : rule.points;
+  AzimuthSample at;
+  at.x = azimuth_point(more ? p - rule.points : p, points);
+  at.shares = chebyshev_shares(at.x, points) * (more ? rule.share_of_more : 1.0 - rule.share_of_more);
+  return at;
 }
 
 // That series at x.

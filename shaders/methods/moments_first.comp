@@ -118,8 +118,8 @@ Path path_towards(TableRay ray, Real cosine) {
   return path;
 }
 
-// Azimuths whose light stands for that of all.
-int points_for(TableRay ray, Real mu_s) {
+// Spacings of the sun's nodes between its azimuths 0 and pi, at the ray's end.
+Real spacings_of(TableRay ray, Real mu_s) {
   Real altitude = ray.down ? 0.0 : scene.thickness_km;
   SunRange range = sun_range(push.grid, altitude);
   Real sines = sqrt(max((1.0 - ray.mu * ray.mu) * (1.0 - mu_s * mu_s), 0.0));
@@ -128,7 +128,7 @@ int points_for(TableRay ray, Real mu_s) {
                           axis_after(ray.altitude_km, mu_s, end - sines, ray.length_km, altitude));
   Real far = node_of_sun(push.grid, range,
                          axis_after(ray.altitude_km, mu_s, end + sines, ray.length_km, altitude));
-  return azimuth_points(far - near);
+  return far - near;
 }
 
 void add_azimuth(Vec3 axis, Path path, ARRAY(Vec4, parts, PARTS), INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
@@ -152,8 +152,9 @@ void add_azimuth(Vec3 axis, Path path, ARRAY(Vec4, parts, PARTS), INOUT_ARRAY(Ve
 }
 
 // Traces one to three azimuths, and has the light of all of them: but for the phase functions it changes
-// little.
-void add_all_azimuths(int i, int j, TableRay ray, Vec3 axis, INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
+// little. Adds that times a share.
+void add_from_few(int i, int j, TableRay ray, Vec3 axis, AzimuthRule rule, Real share,
+                  INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
   Vec4 mean[PARTS];
   Vec4 slope[PARTS];
   Vec4 bend[PARTS];
@@ -162,22 +163,22 @@ void add_all_azimuths(int i, int j, TableRay ray, Vec3 axis, INOUT_ARRAY(Vec4, t
     slope[n] = Vec4(0.0);
     bend[n] = Vec4(0.0);
   }
-  int points = points_for(ray, axis.z);
-  for (int p = 0; p < points; ++p) {
-    Real x = azimuth_point(p, points);
-    Vec3 share = chebyshev_shares(x, points);
+  for (int p = 0; p < rule.points + rule.more; ++p) {
+    AzimuthSample point = azimuth_sample(rule, p);
     Vec4 parts[PARTS];
-    trace_first(i, j, ray, path_towards(ray, x), parts);
+    trace_first(i, j, ray, path_towards(ray, point.x), parts);
     UNROLL for (int n = 0; n < PARTS; ++n) {
-      mean[n] = mean[n] + parts[n] * share.x;
-      slope[n] = slope[n] + parts[n] * share.y;
-      bend[n] = bend[n] + parts[n] * share.z;
+      mean[n] = mean[n] + parts[n] * point.shares.x;
+      slope[n] = slope[n] + parts[n] * point.shares.y;
+      bend[n] = bend[n] + parts[n] * point.shares.z;
     }
   }
   for (int a = 0; a < AZIMUTHS; ++a) {
     Real x = cos(table_azimuth(a));
     Vec4 parts[PARTS];
-    UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = chebyshev_sum(mean[n], slope[n], bend[n], x);
+    UNROLL for (int n = 0; n < PARTS; ++n) {
+      parts[n] = max(chebyshev_sum(mean[n], slope[n], bend[n], x), Vec4(0.0)) * share;
+    }
     add_azimuth(axis, path_towards(ray, x), parts, terms);
   }
 }
@@ -203,15 +204,17 @@ void main() {
   UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) {
     terms[n] = push.first_azimuth > 0 ? light[at + n] : Vec4(0.0);
   }
-  if (push.each_azimuth != 0) {
-    for (int a = push.first_azimuth; a < push.end_azimuth; ++a) {
-      Path path = path_towards(ray, cos(table_azimuth(a)));
-      Vec4 parts[PARTS];
-      trace_first(i, j, ray, path, parts);
-      add_azimuth(axis, path, parts, terms);
-    }
-  } else {
-    add_all_azimuths(i, j, ray, axis, terms);
+  Real spacings = spacings_of(ray, axis.z);
+  Real each = push.each_azimuth != 0 ? 1.0 : share_of_each_azimuth(spacings);
+  for (int a = push.first_azimuth; a < (each > 0.0 ? push.end_azimuth : 0); ++a) {
+    Path path = path_towards(ray, cos(table_azimuth(a)));
+    Vec4 parts[PARTS];
+    trace_first(i, j, ray, path, parts);
+    UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = parts[n] * each;
+    add_azimuth(axis, path, parts, terms);
+  }
+  for (int few = 0; few < (each < 1.0 ? 1 : 0); ++few) {
+    add_from_few(i, j, ray, axis, azimuth_rule(spacings), 1.0 - each, terms);
   }
   UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) light[at + n] = terms[n];
 }

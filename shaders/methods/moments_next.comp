@@ -50,7 +50,7 @@ Vec4 towards(Beam beam, Real x, Vec4 place, ARRAY(Vec4, term, SERIES)) {
 }
 
 // A node's light at all azimuths from a few.
-void add_from_few(Beam beam, Vec4 place, Vec4 suns, int row, int points,
+void add_from_few(Beam beam, Vec4 place, Vec4 suns, int row, AzimuthRule rule,
                   INOUT_ARRAY(Vec4, radiance, AZIMUTHS)) {
   Vec4 mean[SERIES];
   Vec4 slope[SERIES];
@@ -60,22 +60,21 @@ void add_from_few(Beam beam, Vec4 place, Vec4 suns, int row, int points,
     slope[m] = Vec4(0.0);
     bend[m] = Vec4(0.0);
   }
-  for (int p = 0; p < points; ++p) {
-    Real x = azimuth_point(p, points);
-    Vec3 share = chebyshev_shares(x, points);
+  for (int p = 0; p < rule.points + rule.more; ++p) {
+    AzimuthSample point = azimuth_sample(rule, p);
     Vec4 term[SERIES];
-    sent(row, node_of_axis(axis_at(beam, x, place), suns), term);
+    sent(row, node_of_axis(axis_at(beam, point.x, place), suns), term);
     UNROLL for (int m = 0; m <= DEGREE; ++m) {
-      mean[m] = mean[m] + term[m] * share.x;
-      slope[m] = slope[m] + term[m] * share.y;
-      bend[m] = bend[m] + term[m] * share.z;
+      mean[m] = mean[m] + term[m] * point.shares.x;
+      slope[m] = slope[m] + term[m] * point.shares.y;
+      bend[m] = bend[m] + term[m] * point.shares.z;
     }
   }
   UNROLL for (int a = 0; a < AZIMUTHS; ++a) {
     Real x = cos(table_azimuth(a));
     Vec4 term[SERIES];
     UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = chebyshev_sum(mean[m], slope[m], bend[m], x);
-    radiance[a] = radiance[a] + towards(beam, x, place, term);
+    radiance[a] = radiance[a] + max(towards(beam, x, place, term), Vec4(0.0));
   }
 }
 
@@ -121,7 +120,7 @@ void main() {
     Vec4 suns = ray_data[node + 1];
     Real spacings = abs(node_of_axis(axis_at(beam, 1.0, place), suns) -
                      node_of_axis(axis_at(beam, -1.0, place), suns));
-    add_from_few(beam, place, suns, row_at(i, j, k, 0) + g, azimuth_points(spacings), radiance);
+    add_from_few(beam, place, suns, row_at(i, j, k, 0) + g, azimuth_rule(spacings), radiance);
   }
 
   Vec4 reflected = ray_data[ground_at(i, j) + g];

@@ -200,9 +200,25 @@ TEST(MomentInterpolation, IsExactForCubicsAndKeepsToTheRangeOfACliff) {
   }
 }
 
+TEST(MomentInterpolation, IsNotBentByACliffBeyondItsInterval) {
+  P p;
+  for (double depth : {5.0, 30.0, 3000.0}) {
+    glm::dvec4 falls[4] = {glm::dvec4(-depth), glm::dvec4(0), glm::dvec4(1), glm::dvec4(2)};
+    glm::dvec4 rises[4] = {glm::dvec4(2), glm::dvec4(1), glm::dvec4(0), glm::dvec4(-depth)};
+    for (double t = 0; t < 0.95; t += 0.1) {
+      EXPECT_NEAR(p.limited_sum(falls, p.cubic_taps(3 + t, 8)).x, t, 0.04);
+      EXPECT_NEAR(p.limited_sum(rises, p.cubic_taps(3 + t, 8)).x, 1 - t, 0.04);
+    }
+    for (int node = 0; node < 8; ++node) {
+      P::CubicTaps taps = p.cubic_taps(node, 8);
+      EXPECT_NEAR(p.limited_sum(falls, taps).x, falls[node - taps.first].x, 1e-9);
+    }
+  }
+}
+
 TEST(MomentAzimuths, HaveASeriesThatIsExactForWhatTheirPointsTellApart) {
   P p;
-  for (int points : {1, 2, 3, 5}) {
+  for (int points : {1, 2, 3}) {
     auto f = [&](double x) {
       return points == 1 ? 3 : points == 2 ? 3 - x : 3 - x + 4 * x * x;
     };
@@ -216,6 +232,38 @@ TEST(MomentAzimuths, HaveASeriesThatIsExactForWhatTheirPointsTellApart) {
       EXPECT_NEAR(p.chebyshev_sum(v(0), v(1), v(2), x).x, f(x), 1e-12) << points;
     }
   }
+}
+
+TEST(MomentAzimuths, ChangeTheirNumberWithoutAJump) {
+  P p;
+  auto light_at = [&](double spacings, double x) {
+    P::AzimuthRule rule = p.azimuth_rule(spacings);
+    glm::dvec3 series(0);
+    for (int i = 0; i < rule.points + rule.more; ++i) {
+      P::AzimuthSample sample = p.azimuth_sample(rule, i);
+      series += std::exp(2 * sample.x) * sample.shares;
+    }
+    return series[0] + series[1] * x + series[2] * (2 * x * x - 1);
+  };
+  for (double x : {-1.0, -0.3, 0.8}) {
+    double before = light_at(0.1, x);
+    for (double spacings = 0.1; spacings < 1.3; spacings += 1e-5) {
+      double now = light_at(spacings, x);
+      EXPECT_NEAR(now, before, 5e-3) << spacings;
+      before = now;
+    }
+  }
+  EXPECT_EQ(p.azimuth_rule(0.2).points, 1);
+  EXPECT_EQ(p.azimuth_rule(0.5).points, 2);
+  EXPECT_EQ(p.azimuth_rule(1.1).points, 3);
+}
+
+TEST(MomentAzimuths, AreTracedOneByOneWhereTheirLightFallsByPowersOfTen) {
+  P p;
+  EXPECT_EQ(p.share_of_each_azimuth(0), 0);
+  EXPECT_EQ(p.share_of_each_azimuth(2.5 / 1.06), 0);
+  EXPECT_NEAR(p.share_of_each_azimuth(2.5 / 1.025), 0.5, 1e-9);
+  EXPECT_EQ(p.share_of_each_azimuth(2.6), 1);
 }
 
 TEST(MomentAzimuths, InterpolateWithWeightsOfThePolynomialThroughAllPoints) {

@@ -83,11 +83,10 @@ class Solution {
                  (scene_.problem().sun_distance_km > 0 ? first_steps() : 1);
     int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree;
     require_rounds(scene_, rounds);
-    constexpr int most_points = Physics<float>::MOST_POINTS;
     Push part = push();
     // Under a near sun the scattering angle changes along a ray.
-    part.each_azimuth =
-        scene_.problem().sun_distance_km > 0 || most_points * rounds > usual_loop_iterations;
+    part.each_azimuth = scene_.problem().sun_distance_km > 0 ||
+                        settings_.azimuths * rounds > usual_loop_iterations;
     int at_once =
         part.each_azimuth ? std::max(usual_loop_iterations / rounds, 1) : settings_.azimuths;
     for (int first = 0; first < settings_.azimuths; first += at_once) {

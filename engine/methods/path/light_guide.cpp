@@ -1,8 +1,11 @@
 #include "engine/methods/path/light_guide.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "engine/gauss_legendre.h"
 
@@ -43,19 +46,125 @@ std::vector<int> typical_lanes(P& p) {
   return lanes;
 }
 
+/// Middles of the cells: the inverses of altitude_coordinate and sun_coordinate.
+double altitude_of(P& p, int i, int count) {
+  double x = (i + 0.5) / count;
+  return x * x * p.scene.thickness_km;
+}
+
+double sun_of(P& p, int j, int count) {
+  double dip = std::sqrt(p.squared_height(p.scene.thickness_km)) /
+               (p.scene.planet_radius_km + p.scene.thickness_km);
+  double lowest = std::asinh(-4.0), highest = std::asinh(2 / dip + 0.5);
+  double y = lowest + (highest - lowest) * (j + 0.5) / count;
+  return std::min((std::sinh(y) - 0.5) * dip / 2, 1.0);
+}
+
+using ByMedium = std::array<double, P::MEDIA_SIZE>;
+
+/// A node on a ray, or the ground at its end.
+struct Node {
+  double altitude_km, distance_km;
+  double length_km;  ///< that it stands for
+  bool ground;
+  ByMedium density, column;  ///< there, and from the ray's start to there
+};
+
+/// Rays from a grid of altitudes, and what they pass: the same at every wavelength.
+class Views {
+ public:
+  explicit Views(P& physics) : p_(physics) {
+    for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) add_sunbeam(i);
+    for (int i = 0; i < P::SKY_ALTITUDES; ++i) {
+      double h = altitude_of(p_, i, P::SKY_ALTITUDES);
+      for (int row = 0; row < P::SKY_ELEVATIONS; ++row) {
+        double mu = p_.sky_cosine(2 * (row + 0.5) / P::SKY_ELEVATIONS - 1);
+        nodes_.push_back(nodes_along(h, mu));
+        for (int j = 0; j < P::SKY_SUNS; ++j) look_up(h, mu, sun_of(p_, j, P::SKY_SUNS));
+      }
+    }
+  }
+
+  /// By altitude and sun, the column that sunlight has passed where it arrives.
+  const std::vector<std::optional<ByMedium>>& sunbeams() const { return sunbeams_; }
+  /// By altitude and elevation.
+  const std::vector<std::vector<Node>>& nodes() const { return nodes_; }
+  /// By altitude, elevation, sun, azimuth and node, where its light stands.
+  const std::vector<std::uint16_t>& places() const { return places_; }
+
+ private:
+  void add_sunbeam(int i) {
+    double h = altitude_of(p_, i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
+           mu_sun = sun_of(p_, i % P::LIGHT_SUNS, P::LIGHT_SUNS);
+    sunbeams_.emplace_back();
+    if (p_.meets_ground(h, mu_sun)) return;
+    double column[P::MEDIA_SIZE];
+    p_.columns_to_top(h, mu_sun, column);
+    sunbeams_.back() = std::to_array(column);
+  }
+
+  std::vector<Node> nodes_along(double h, double mu) {
+    static const GaussRule rule = gauss_legendre(12);
+    P::Leg leg = p_.leg_from(h, mu, P::ENDLESS);
+    std::vector<Node> nodes;
+    for (bool back : {true, false}) {
+      P::Stretch stretch = p_.stretch_of(leg, back);
+      if (stretch.length_km <= 0) continue;
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+        double d = p_.stretched_distance(stretch, rule.nodes[k]);
+        nodes.push_back(node(h, mu, back ? leg.back_km - d : leg.back_km + d,
+                             p_.altitude_after(leg.low_h, stretch.mu, d)));
+        nodes.back().length_km = rule.weights[k] * p_.stretched_rate(stretch, rule.nodes[k]);
+      }
+    }
+    if (leg.meets_ground) {
+      nodes.push_back(node(h, mu, leg.back_km + leg.on_km, 0));
+      nodes.back().ground = true;
+    }
+    return nodes;
+  }
+
+  Node node(double h, double mu, double distance_km, double altitude_km) {
+    double column[P::MEDIA_SIZE] = {}, density[P::MEDIA_SIZE] = {};
+    p_.columns_along(h, mu, distance_km, column);
+    p_.densities(altitude_km, density);
+    return {altitude_km, distance_km, 0, false, std::to_array(density), std::to_array(column)};
+  }
+
+  void look_up(double h, double mu, double mu_sun) {
+    double radius = p_.scene.planet_radius_km;
+    for (int column = 0; column < P::SKY_AZIMUTHS; ++column) {
+      double s = (column + 0.5) / P::SKY_AZIMUTHS;
+      double nu =
+          mu * mu_sun + std::sqrt((1 - mu * mu) * (1 - mu_sun * mu_sun)) * (1 - 2 * s * s);
+      for (const Node& node : nodes_.back()) {
+        double there =
+            ((radius + h) * mu_sun + node.distance_km * nu) / (radius + node.altitude_km);
+        places_.push_back(static_cast<std::uint16_t>(p_.light_place(node.altitude_km, there)));
+      }
+    }
+  }
+
+  P& p_;
+  std::vector<std::optional<ByMedium>> sunbeams_;
+  std::vector<std::vector<Node>> nodes_;
+  std::vector<std::uint16_t> places_;
+};
+
 /// The scattering of a shell lit from outside, order by order, with isotropic phases and at one
 /// wavelength: enough to tell where light is.
 class Lighting {
  public:
-  Lighting(P& physics, int lane) : p_(physics) {
+  Lighting(P& physics, const Views& views, int lane) : p_(physics), views_(views) {
     for (int c = 0; c < p_.MEDIA; ++c) {
       extinction_.push_back(p_.extinction(c, lane / 4)[lane % 4]);
       scattering_.push_back(p_.scattering(c, lane / 4)[lane % 4]);
     }
-    albedo_ = p_.ground_albedo(lane / 4)[lane % 4];
-    for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) {
-      sunlight_.push_back(sunlight(altitude(i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
-                                   sun(i % P::LIGHT_SUNS, P::LIGHT_SUNS)));
+    for (const auto& sunbeam : views_.sunbeams())
+      sunlight_.push_back(sunbeam ? transmittance(*sunbeam) : 0);
+    for (const auto& nodes : views_.nodes()) {
+      for (const Node& node : nodes)
+        weights_.push_back(weight(node, p_.ground_albedo(lane / 4)[lane % 4]));
     }
     light_ = sunlight_;
     sky_.assign(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
@@ -72,107 +181,53 @@ class Lighting {
   const std::vector<Sky>& sky() const { return sky_; }
 
  private:
-  /// Middles of the cells: the inverses of altitude_coordinate and sun_coordinate.
-  double altitude(int i, int count) const {
-    double x = (i + 0.5) / count;
-    return x * x * p_.scene.thickness_km;
-  }
-  double sun(int j, int count) const {
-    double dip = std::sqrt(p_.squared_height(p_.scene.thickness_km)) /
-                 (p_.scene.planet_radius_km + p_.scene.thickness_km);
-    double lowest = std::asinh(-4.0), highest = std::asinh(2 / dip + 0.5);
-    double y = lowest + (highest - lowest) * (j + 0.5) / count;
-    return std::min((std::sinh(y) - 0.5) * dip / 2, 1.0);
+  double transmittance(const ByMedium& column) const {
+    double depth = 0;
+    for (int c = 0; c < p_.MEDIA; ++c) depth += extinction_[c] * column[c];
+    return std::exp(-depth);
   }
 
-  double depth(const double (&column)[P::MEDIA_SIZE]) const {
-    double sum = 0;
-    for (int c = 0; c < p_.MEDIA; ++c) sum += extinction_[c] * column[c];
-    return sum;
-  }
-
-  double sunlight(double h, double mu_sun) {
-    if (p_.meets_ground(h, mu_sun)) return 0;
-    double column[P::MEDIA_SIZE];
-    p_.columns_to_top(h, mu_sun, column);
-    return std::exp(-depth(column));
-  }
-
-  /// A node on a ray: what it adds to the ray's light for each unit of light at it.
-  struct Node {
-    double altitude_km, distance_km, weight;
-  };
-
-  std::vector<Node> nodes_along(double h, double mu) {
-    static const GaussRule rule = gauss_legendre(12);
-    P::Leg leg = p_.leg_from(h, mu, P::ENDLESS);
-    std::vector<Node> nodes;
-    double column[P::MEDIA_SIZE], density[P::MEDIA_SIZE];
-    for (bool back : {true, false}) {
-      P::Stretch stretch = p_.stretch_of(leg, back);
-      if (stretch.length_km <= 0) continue;
-      for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-        double d = p_.stretched_distance(stretch, rule.nodes[k]);
-        double t = back ? leg.back_km - d : leg.back_km + d;
-        double node_h = p_.altitude_after(leg.low_h, stretch.mu, d);
-        p_.columns_along(h, mu, t, column);
-        p_.densities(node_h, density);
-        double scattered = 0;
-        for (int c = 0; c < p_.MEDIA; ++c) scattered += scattering_[c] * density[c];
-        nodes.push_back({node_h, t,
-                         rule.weights[k] * p_.stretched_rate(stretch, rule.nodes[k]) *
-                             scattered * std::exp(-depth(column))});
-      }
-    }
-    if (leg.meets_ground) {
-      double length = leg.back_km + leg.on_km;
-      p_.columns_along(h, mu, length, column);
-      nodes.push_back({0, length, albedo_ * std::exp(-depth(column))});
-    }
-    return nodes;
+  /// What a node adds to its ray's light for each unit of light at it.
+  double weight(const Node& node, double ground_albedo) const {
+    double scattered = 0;
+    for (int c = 0; c < p_.MEDIA; ++c) scattered += scattering_[c] * node.density[c];
+    return (node.ground ? ground_albedo : node.length_km * scattered) *
+           transmittance(node.column);
   }
 
   /// The sky of every place, from the light of all others.
   void look_around() {
-    for (int i = 0; i < P::SKY_ALTITUDES; ++i) {
-      double h = altitude(i, P::SKY_ALTITUDES);
-      for (int row = 0; row < P::SKY_ELEVATIONS; ++row) {
-        double mu = p_.sky_cosine(2 * (row + 0.5) / P::SKY_ELEVATIONS - 1);
-        std::vector<Node> nodes = nodes_along(h, mu);
-        for (int j = 0; j < P::SKY_SUNS; ++j) look_up(i, row, j, h, mu, nodes);
+    const double* weight = weights_.data();
+    const std::uint16_t* place = views_.places().data();
+    for (int view = 0; view < P::SKY_ALTITUDES * P::SKY_ELEVATIONS; ++view) {
+      int i = view / P::SKY_ELEVATIONS, row = view % P::SKY_ELEVATIONS;
+      double mu = p_.sky_cosine(2 * (row + 0.5) / P::SKY_ELEVATIONS - 1);
+      std::size_t nodes = views_.nodes()[view].size();
+      for (int cell = 0; cell < P::SKY_SUNS * P::SKY_AZIMUTHS; ++cell, place += nodes) {
+        int j = cell / P::SKY_AZIMUTHS, column = cell % P::SKY_AZIMUTHS;
+        double radiance = 0;
+        for (std::size_t k = 0; k < nodes; ++k) radiance += weight[k] * light_[place[k]];
+        double solid_angle =
+            2.0 / P::SKY_CELLS / p_.sky_density(mu, (column + 0.5) / P::SKY_AZIMUTHS);
+        sky_[i * P::SKY_SUNS + j][row * P::SKY_AZIMUTHS + column] =
+            radiance * solid_angle / (4 * std::numbers::pi);
       }
-    }
-  }
-
-  void look_up(int i, int row, int j, double h, double mu, const std::vector<Node>& nodes) {
-    double radius = p_.scene.planet_radius_km, mu_sun = sun(j, P::SKY_SUNS);
-    for (int column = 0; column < P::SKY_AZIMUTHS; ++column) {
-      double s = (column + 0.5) / P::SKY_AZIMUTHS;
-      double nu =
-          mu * mu_sun + std::sqrt((1 - mu * mu) * (1 - mu_sun * mu_sun)) * (1 - 2 * s * s);
-      double radiance = 0;
-      for (const Node& node : nodes) {
-        double there =
-            ((radius + h) * mu_sun + node.distance_km * nu) / (radius + node.altitude_km);
-        radiance += node.weight * light_[p_.light_place(node.altitude_km, there)];
-      }
-      double solid_angle = 2.0 / P::SKY_CELLS / p_.sky_density(mu, s);
-      sky_[i * P::SKY_SUNS + j][row * P::SKY_AZIMUTHS + column] =
-          radiance * solid_angle / (4 * std::numbers::pi);
+      weight += nodes;
     }
   }
 
   void add_skylight() {
     for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) {
-      double h = altitude(i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
-             mu_sun = sun(i % P::LIGHT_SUNS, P::LIGHT_SUNS);
+      double h = altitude_of(p_, i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
+             mu_sun = sun_of(p_, i % P::LIGHT_SUNS, P::LIGHT_SUNS);
       light_[i] = sunlight_[i] + total(sky_[p_.sky_place(h, mu_sun)]);
     }
   }
 
   P& p_;
+  const Views& views_;
   std::vector<double> extinction_, scattering_;
-  double albedo_ = 0;
+  std::vector<double> weights_;  ///< by altitude, elevation and node
   std::vector<double> sunlight_, light_;
   std::vector<Sky> sky_;
 };
@@ -202,8 +257,9 @@ void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
 void append_light_guide(Physics<double>& physics) {
   std::vector<double> light(P::LIGHT_ALTITUDES * P::LIGHT_SUNS, 0.0);
   std::vector<Sky> sky(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
+  const Views views(physics);
   for (int lane : typical_lanes(physics)) {
-    Lighting lighting(physics, lane);
+    Lighting lighting(physics, views, lane);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += lighting.light()[i];
     for (std::size_t i = 0; i < sky.size(); ++i) {
       for (std::size_t k = 0; k < sky[i].size(); ++k) sky[i][k] += lighting.sky()[i][k];
