@@ -168,8 +168,8 @@ void RenderQueue::work() {
 bool RenderQueue::make_engine(std::string reason) {
   while (losses_in_a_row_ <= most_repairs_in_a_row) {
     try {
-      engine_.reset();
-      engine_ = std::make_unique<Engine>(options_.engine);
+      set_engine(nullptr);  // before the next one: there may be no room for two
+      set_engine(std::make_unique<Engine>(options_.engine));
       if (options_.warm) engine_->warm();
       engine_->inject(std::exchange(options_.faults, {}));
       const std::lock_guard lock(mutex_);
@@ -186,6 +186,12 @@ bool RenderQueue::make_engine(std::string reason) {
   }
   fail(reason);
   return false;
+}
+
+void RenderQueue::set_engine(std::unique_ptr<Engine> engine) {
+  const std::lock_guard lock(mutex_);
+  engine_.swap(engine);
+  table_bytes_ = 0;
 }
 
 bool RenderQueue::fits(const Entry& entry) const {
@@ -307,7 +313,7 @@ void RenderQueue::attempt(Entry& entry) {
     entry.job.work(*engine_, watch);
   }
   const std::lock_guard lock(mutex_);
-  memory_ = {engine_->device_bytes(), engine_->tables().bytes};
+  table_bytes_ = engine_->tables().bytes;
   recent_ms_.push_back(ms_between(start, Clock::now()) - entry.ticket.given_away_ms);
   if (recent_ms_.size() > recent_jobs) recent_ms_.pop_front();
 }
@@ -370,9 +376,10 @@ std::size_t RenderQueue::depth() const {
   return waiting_.size();
 }
 
-RenderQueue::MemoryUse RenderQueue::memory() const {
+RenderQueue::DeviceUse RenderQueue::device_use() const {
   const std::lock_guard lock(mutex_);
-  return memory_;
+  if (!engine_) return {};
+  return {engine_->device_bytes(), table_bytes_, engine_->kernels()};
 }
 
 RenderQueue::Counts RenderQueue::counts() const {
