@@ -113,6 +113,7 @@ class RenderQueue {
   std::optional<QueueFull::Whose> full(const std::string& client) const;
   void admit(const std::string& client);
   void wait(Entry& entry);
+  void look_after_waiting();
   void withdraw(Entry& entry, Cancelled::Reason reason);
   void work();
   bool make_engine(std::string reason);
@@ -134,7 +135,7 @@ class RenderQueue {
 
   Options options_;
   mutable std::mutex mutex_;
-  std::condition_variable work_here_;
+  std::condition_variable work_here_, someone_waits_;
   /// A client's n-th waiting job has its turn n rounds from now (start-time fair queueing with
   /// equal weights [Goyal, Vin and Cheng 1996]).
   std::map<Place, std::shared_ptr<Entry>> waiting_;
@@ -152,7 +153,7 @@ class RenderQueue {
   int losses_in_a_row_ = 0;
   std::atomic<int> jobs_open_ = 0;  ///< on the device's thread, one within the other
   std::unique_ptr<Engine> engine_;  ///< the device's thread's; changes under the mutex
-  std::thread thread_;
+  std::thread thread_, caretaker_;
 };
 
 }  // namespace cyanometer
