@@ -194,6 +194,7 @@ struct Engine::Parts {
     const vulkan::DeviceInfo& info = device.info();
     identity = info.name + ", " + info.driver + ", " + info.api_version + ", " + version();
     if (auto kept = load_profile(profiles, identity)) profile = *kept;
+    device.keep_pipelines(options.kernels);
   }
 
   vulkan::Device device;
@@ -720,6 +721,11 @@ std::vector<Panels> Engine::table_panels(const Scene& scene, const Watch& watch)
 void Engine::forget_tables() { parts_->tables.clear(); }
 
 std::size_t Engine::device_bytes() const { return parts_->device.allocated_bytes(); }
+
+KernelUse Engine::kernels() const {
+  const vulkan::PipelineUse use = parts_->device.pipelines();
+  return {use.kept, use.made};
+}
 
 void Engine::inject(const EngineFaults& faults) {
   if (faults.lose_at_submission > 0) {

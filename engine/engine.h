@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -108,6 +109,12 @@ struct TableUse {
   double making_ms = 0;   ///< spent on all that were made so far
 };
 
+/// Kernels as compiled for a form of scene: constituents, wavelengths, orders, projection.
+struct KernelUse {
+  std::size_t kept = 0;
+  std::uint64_t compiled = 0;  ///< since the engine was made
+};
+
 /// For tests: what is to go wrong with the device.
 struct EngineFaults {
   int lose_at_submission = 0;    ///< that one from now and all after it fail; 0: none
@@ -167,6 +174,7 @@ struct EngineOptions {
   std::string device;  ///< part of a device's name; empty: the best there is
   double longest_dispatch_ms = 50;
   std::size_t table_bytes = std::size_t{256} << 20;  ///< of tables kept between requests
+  std::size_t kernels = 192;  ///< compiled forms of all kernels that are kept
   /// Where the paces of devices are kept (planner/profile.h); empty: nominal ones are reckoned
   /// with.
   std::filesystem::path profiles = {};
@@ -210,8 +218,10 @@ class Engine {
   /// The device in use, as it enters an ETag and the logs.
   const DeviceDescription& device() const;
   TableUse tables() const;
-  /// The device's memory in use.
+  /// The device's memory in use; also from other threads.
   std::size_t device_bytes() const;
+  /// Also from other threads.
+  KernelUse kernels() const;
   void inject(const EngineFaults& faults);
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();

@@ -47,6 +47,10 @@ const std::vector<Setting>& settings() {
        &Config::frame_memory_mb, 1, 1e6},
       {"cache-mb", "MiB of all tables and frames kept between requests", &Config::cache_mb, 0,
        1e6},
+      {"kernels",
+       "compiled kernels kept, one for each form of scene that each step of a method met, of "
+       "some 5 MiB on a processor; the least recently used goes first",
+       &Config::kernels, 32, 100000},
       {"surfaces", "folder of images that scenes may name in planet.surface; empty: none may",
        &Config::surfaces},
       {"trusted-proxy",

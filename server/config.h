@@ -27,6 +27,7 @@ struct Config {
   double max_body_mb = 64;
   double frame_memory_mb = 2048;
   double cache_mb = 256;
+  int kernels = 192;
   std::string surfaces;
   std::string trusted_proxy;
   std::string token;

@@ -6,6 +6,9 @@ namespace cyanometer {
 namespace {
 
 constexpr std::size_t ops_connections = 32;
+/// Where the device is the processor itself, whoever is turned away must not keep a frame
+/// waiting: a dispatch ends with the last of its threads, and hands on to the next step.
+constexpr int clients_nice = 5;
 
 HttpServer::Options options(const Config& config, ConnectionLimits limits) {
   limits.body_bytes = config.body_bytes();
@@ -13,7 +16,8 @@ HttpServer::Options options(const Config& config, ConnectionLimits limits) {
   limits.bodies->most_bytes = std::max(config.frame_bytes(), config.body_bytes());
   return {.limits = limits,
           .proxies = Proxies(config.trusted_proxy),
-          .connections = static_cast<std::size_t>(config.threads)};
+          .connections = static_cast<std::size_t>(config.threads),
+          .nice = clients_nice};
 }
 
 HttpServer::Handlers handlers(const Router& router) {
@@ -35,6 +39,7 @@ Daemon::Daemon(const Config& config, const ConnectionLimits& limits)
   if (config.ops_listen.empty()) return;
   auto ops_options = options(config, limits);
   ops_options.connections = ops_connections;
+  ops_options.nice = 0;  // probes have their time to be answered in
   ops_ = std::make_unique<HttpServer>(ops_options, handlers(ops_router_));
   ops_->bind(config.ops_listen);
 }

@@ -17,6 +17,7 @@ Service::Service(const Config& config_)
     : config(config_),
       queue({.engine = {.device = config_.device,
                         .table_bytes = config_.table_bytes(),
+                        .kernels = static_cast<std::size_t>(config_.kernels),
                         .profiles = cache_folder("profiles")},
              .capacity = static_cast<std::size_t>(config_.queue),
              .frame_bytes = config_.frame_bytes(),

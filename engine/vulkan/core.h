@@ -8,9 +8,11 @@
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "engine/vulkan/device.h"
 #include "engine/vulkan/instance.h"
+#include "engine/vulkan/kernel.h"
 
 namespace cyanometer::vulkan {
 
@@ -34,6 +36,11 @@ struct Device::Core {
   int submissions_until_loss = 0;               ///< 0: none is planned
   std::atomic<std::size_t> allocated_bytes{0};  ///< by buffers; these may be freed anywhere
   std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
+  std::vector<Kernel::Program*> programs;  ///< those alive, which hold the pipelines
+  std::size_t most_pipelines = std::numeric_limits<std::size_t>::max();
+  std::uint64_t pipeline_uses = 0;
+  std::atomic<std::size_t> pipelines_kept{0};
+  std::atomic<std::uint64_t> pipelines_made{0};
 };
 
 /// A handle made from a device, and the device kept alive until it is destroyed.

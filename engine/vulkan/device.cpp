@@ -4,8 +4,10 @@
 #include <cctype>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 
 #include "engine/vulkan/core.h"
+#include "engine/vulkan/program.h"
 
 namespace cyanometer::vulkan {
 namespace {
@@ -236,6 +238,12 @@ const Limits& Device::limits() const { return core_->limits; }
 void Device::lose_at_submission(int n) { core_->submissions_until_loss = n; }
 void Device::limit_memory(std::size_t bytes) { core_->most_bytes = bytes; }
 std::size_t Device::allocated_bytes() const { return core_->allocated_bytes; }
+void Device::keep_pipelines(std::size_t most) {
+  if (most == 0) throw std::invalid_argument("a device keeps at least one pipeline");
+  core_->most_pipelines = most;
+  while (core_->pipelines_kept > most) forget_least_used_pipeline(*core_);
+}
+PipelineUse Device::pipelines() const { return {core_->pipelines_kept, core_->pipelines_made}; }
 int Device::validation_messages() const { return core_->instance.validation_messages(); }
 
 }  // namespace cyanometer::vulkan

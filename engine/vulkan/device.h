@@ -56,6 +56,11 @@ struct Limits {
   bool unified_memory = false;  ///< device memory is the host's too
 };
 
+struct PipelineUse {
+  std::size_t kept = 0;
+  std::uint64_t made = 0;  ///< since the device was
+};
+
 /// One logical device with one queue. The device and all that is made from it belong to one
 /// thread; only buffers may be read and freed on any. Whatever was made from it keeps its inner
 /// part alive.
@@ -77,6 +82,12 @@ class Device {
   void limit_memory(std::size_t bytes);
   /// Of the device's memory, in use by buffers; also from other threads.
   std::size_t allocated_bytes() const;
+  /// Of all kernels together at most so many pipelines are kept, those used last. Ones that
+  /// recorded commands use live until that work is done, beside them.
+  /// @throws std::invalid_argument of none
+  void keep_pipelines(std::size_t most);
+  /// Also from other threads.
+  PipelineUse pipelines() const;
   /// Warnings and errors of the validation layer so far; 0 where it is off.
   int validation_messages() const;
 

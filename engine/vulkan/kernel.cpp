@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "engine/vulkan/program.h"
 
 namespace cyanometer::vulkan {
 namespace {
-
-constexpr std::size_t kPipelinesKept = 64;
 
 void make_module(Kernel::Program& program, std::span<const std::uint32_t> spirv) {
   VkShaderModuleCreateInfo info{};
@@ -71,21 +70,42 @@ Kernel::Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32
   make_layout(*program_);
 }
 
+Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_)
+    : core(core_), module(core_), set_layout(core_), layout(core_) {
+  core->programs.push_back(this);
+}
+
+Kernel::Program::~Program() {
+  std::erase(core->programs, this);
+  core->pipelines_kept -= pipelines_.size();
+}
+
 std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::pipeline(
     const Specialization& specialization) {
   auto found = pipelines_.find(specialization);
   if (found == pipelines_.end()) {
-    if (pipelines_.size() == kPipelinesKept) forget_the_least_used();
-    found = pipelines_.emplace(specialization, Kept{make(specialization)}).first;
+    auto made = make(specialization);
+    if (core->pipelines_kept >= core->most_pipelines) forget_least_used_pipeline(*core);
+    found = pipelines_.emplace(specialization, Kept{std::move(made)}).first;
+    ++core->pipelines_kept;
+    ++core->pipelines_made;
   }
-  found->second.last_use = ++uses_;
+  found->second.last_use = ++core->pipeline_uses;
   return found->second.pipeline;
 }
 
-void Kernel::Program::forget_the_least_used() {
-  pipelines_.erase(std::min_element(
-      pipelines_.begin(), pipelines_.end(),
-      [](const auto& a, const auto& b) { return a.second.last_use < b.second.last_use; }));
+void forget_least_used_pipeline(Device::Core& core) {
+  Kernel::Program* owner = nullptr;
+  decltype(owner->pipelines_)::iterator least;
+  for (Kernel::Program* program : core.programs) {
+    for (auto each = program->pipelines_.begin(); each != program->pipelines_.end(); ++each) {
+      if (owner && each->second.last_use >= least->second.last_use) continue;
+      owner = program;
+      least = each;
+    }
+  }
+  owner->pipelines_.erase(least);
+  --core.pipelines_kept;
 }
 
 std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::make(

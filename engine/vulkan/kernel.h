@@ -16,7 +16,8 @@ namespace cyanometer::vulkan {
 using Specialization = std::vector<std::uint32_t>;
 
 /// SPIR-V with entry point `main` that uses the storage buffers 0 to bindings - 1 of set 0. Its
-/// pipelines are made at first use, one a specialization; the 64 used last are kept.
+/// pipelines are made at first use, one a specialization; of all kernels' the device keeps
+/// those used last (Device::keep_pipelines).
 class Kernel {
  public:
   /// @throws std::invalid_argument where the device has fewer bindings or push constants

@@ -11,8 +11,9 @@ namespace cyanometer::vulkan {
 struct Kernel::Program {
   using Pipeline = Owned<VkPipeline, &vkDestroyPipeline>;
 
-  explicit Program(const std::shared_ptr<Device::Core>& core_)
-      : core(core_), module(core_), set_layout(core_), layout(core_) {}
+  explicit Program(const std::shared_ptr<Device::Core>& core_);
+  ~Program();
+  Program(const Program&) = delete;
 
   /// The pipeline of a specialization, made where there is none yet.
   std::shared_ptr<Pipeline> pipeline(const Specialization& specialization);
@@ -30,10 +31,12 @@ struct Kernel::Program {
     std::uint64_t last_use = 0;
   };
   std::shared_ptr<Pipeline> make(const Specialization& specialization);
-  void forget_the_least_used();
+  friend void forget_least_used_pipeline(Device::Core& core);
 
   std::map<Specialization, Kept> pipelines_;
-  std::uint64_t uses_ = 0;
 };
+
+/// Of all kernels'. @pre one is kept
+void forget_least_used_pipeline(Device::Core& core);
 
 }  // namespace cyanometer::vulkan

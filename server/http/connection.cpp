@@ -66,12 +66,20 @@ bool BodyShare::grow_to(std::size_t body_bytes) {
 Connection::Connection(int socket, int wake, const ConnectionLimits& limits)
     : socket_(socket), wake_(wake), limits_(limits), peer_(peer_address(socket)) {}
 
-bool Connection::wait(std::chrono::milliseconds idle) const {
+bool Connection::wait(std::chrono::milliseconds idle) {
   if (!buffer_.empty()) return true;
   std::array<pollfd, 2> both{{{socket_, POLLIN, 0}, {wake_, POLLIN, 0}}};
   if (poll_until(both, Clock::now() + idle) <= 0 || both[0].revents == 0) return false;
-  char byte = 0;
-  return ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 1;
+  return receive() && !buffer_.empty();
+}
+
+bool Connection::receive() {
+  std::array<char, 16384> chunk;
+  const auto got = ::recv(socket_, chunk.data(), chunk.size(), MSG_DONTWAIT);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
+  if (got <= 0) return false;
+  buffer_.append(chunk.data(), static_cast<std::size_t>(got));
+  return true;
 }
 
 bool Connection::fill(Clock::time_point deadline) {
@@ -79,12 +87,7 @@ bool Connection::fill(Clock::time_point deadline) {
   if (Clock::now() >= deadline || poll_until(one, deadline) == 0) {
     throw HttpProblem(408, "The request did not arrive in time.");
   }
-  std::array<char, 16384> chunk;
-  const auto got = ::recv(socket_, chunk.data(), chunk.size(), MSG_DONTWAIT);
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
-  if (got <= 0) return false;
-  buffer_.append(chunk.data(), static_cast<std::size_t>(got));
-  return true;
+  return receive();
 }
 
 std::optional<std::string> Connection::read_head() {

@@ -61,7 +61,7 @@ class Connection {
 
   /// True when a request's first byte is there; false when the client left, `idle` went by, or
   /// the server stops.
-  bool wait(std::chrono::milliseconds idle) const;
+  bool wait(std::chrono::milliseconds idle);
   /// The next request, whole; none when the client left in the middle of it.
   /// @throws HttpProblem; the connection must then be closed, its place in the stream is
   /// unknown
@@ -77,7 +77,10 @@ class Connection {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Waits for more. False when the client left. @throws HttpProblem past the deadline
   bool fill(Clock::time_point deadline);
+  /// What is there. False when the client left.
+  bool receive();
   std::optional<std::string> read_head();
 
   int socket_;

@@ -52,7 +52,7 @@ HttpServer::HttpServer(Options options, Handlers handlers)
       wake_(eventfd(0, EFD_CLOEXEC)) {
   set_socket_options(set_options);
   set_tcp_nodelay(true);
-  new_task_queue = [this] { return new ThreadPool(options_.connections); };
+  new_task_queue = [this] { return new ThreadPool(options_.connections, options_.nice); };
 }
 
 HttpServer::~HttpServer() { ::close(wake_); }
@@ -119,7 +119,7 @@ bool HttpServer::serve_one(Connection& connection, bool last) {
   }
 }
 
-bool HttpServer::wait_for_request(const Connection& connection, bool first) const {
+bool HttpServer::wait_for_request(Connection& connection, bool first) const {
   // Where most threads are taken, those that only wait are the ones to give up.
   const bool crowded = connections_ * 4 > static_cast<int>(options_.connections) * 3;
   const auto idle = first ? options_.limits.head : options_.limits.idle;

@@ -21,6 +21,7 @@ class HttpServer : private httplib::Server {
     ConnectionLimits limits;
     Proxies proxies = {};
     std::size_t connections = 512;  ///< at once, each with a thread; more are refused with 503
+    int nice = 0;                   ///< of those threads, added to the process's
   };
   struct Handlers {
     /// Must not throw.
@@ -48,7 +49,7 @@ class HttpServer : private httplib::Server {
   void serve(Connection& connection);
   /// True when one more request may be waited for.
   bool serve_one(Connection& connection, bool last);
-  bool wait_for_request(const Connection& connection, bool first) const;
+  bool wait_for_request(Connection& connection, bool first) const;
   void refuse(Connection& connection, const HttpProblem& problem) const;
   /// False when the client did not take it all.
   static bool send(const Connection& connection, const Answer& answer, bool head_only,

@@ -1,11 +1,20 @@
 #include "server/http/thread_pool.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <utility>
 
 namespace cyanometer {
 namespace {
 
 thread_local bool overloaded_here = false;
+
+/// Linux keeps a nice value for each thread.
+void stand_back(int nice) {
+  const auto thread = static_cast<id_t>(::gettid());
+  ::setpriority(PRIO_PROCESS, thread, ::getpriority(PRIO_PROCESS, thread) + nice);
+}
 
 }  // namespace
 
@@ -38,6 +47,7 @@ void ThreadPool::shutdown() {
 }
 
 void ThreadPool::work() {
+  if (nice_ != 0) stand_back(nice_);
   std::unique_lock lock(mutex_);
   for (;;) {
     ++idle_;

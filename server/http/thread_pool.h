@@ -17,7 +17,9 @@ namespace cyanometer {
 /// return.
 class ThreadPool : public httplib::TaskQueue {
  public:
-  explicit ThreadPool(std::size_t most_threads) : most_threads_(most_threads) {}
+  /// @param nice  added to the threads' nice values: how far they stand back where processors
+  ///              are short
+  ThreadPool(std::size_t most_threads, int nice) : most_threads_(most_threads), nice_(nice) {}
   void enqueue(std::function<void()> task) override;
   /// Returns when every task has ended.
   void shutdown() override;
@@ -28,6 +30,7 @@ class ThreadPool : public httplib::TaskQueue {
   void work();
 
   std::size_t most_threads_;
+  int nice_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<std::function<void()>> tasks_;

@@ -59,7 +59,9 @@ struct RenderQueue::Entry {
 };
 
 RenderQueue::RenderQueue(Options options)
-    : options_(std::move(options)), thread_([this] { work(); }) {}
+    : options_(std::move(options)),
+      thread_([this] { work(); }),
+      caretaker_([this] { look_after_waiting(); }) {}
 
 RenderQueue::~RenderQueue() {
   {
@@ -67,7 +69,9 @@ RenderQueue::~RenderQueue() {
     stopping_ = true;
   }
   work_here_.notify_all();
+  someone_waits_.notify_all();
   thread_.join();
+  caretaker_.join();
 }
 
 Ticket RenderQueue::run(Job job) {
@@ -124,6 +128,7 @@ void RenderQueue::put(const std::shared_ptr<Entry>& entry) {
   waiting_.emplace(entry->place, entry);
   ++waiting_of_[entry->job.client];
   work_here_.notify_all();
+  if (waiting_.size() == 1) someone_waits_.notify_one();
 }
 
 void RenderQueue::remove(const Entry& entry) {
@@ -133,17 +138,28 @@ void RenderQueue::remove(const Entry& entry) {
 }
 
 void RenderQueue::wait(Entry& entry) {
-  const auto& watch = entry.job.watch;
   std::unique_lock lock(mutex_);
-  while (entry.state != Entry::State::done) {
-    // A running job looks after itself between tiles; a waiting one is looked after from here.
-    constexpr auto glance = std::chrono::milliseconds(50);
-    entry.finished.wait_for(lock, glance);
-    if (entry.state != Entry::State::waiting) continue;
-    if (Clock::now() >= watch.deadline) {
-      withdraw(entry, Cancelled::Reason::deadline);
-    } else if (watch.gone()) {
-      withdraw(entry, Cancelled::Reason::client_gone);
+  entry.finished.wait(lock, [&] { return entry.state == Entry::State::done; });
+}
+
+/// A running job looks after itself between tiles; those that wait are looked after from here,
+/// all by one thread: where the device is the processor itself, each that woke up to look for
+/// itself would keep the device waiting.
+void RenderQueue::look_after_waiting() {
+  constexpr auto glance = std::chrono::milliseconds(50);
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    someone_waits_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
+    someone_waits_.wait_for(lock, glance, [&] { return stopping_; });
+    if (stopping_) return;
+    for (auto next = waiting_.begin(); next != waiting_.end();) {
+      const auto entry = (next++)->second;
+      const Watch& watch = entry->job.watch;
+      if (Clock::now() >= watch.deadline) {
+        withdraw(*entry, Cancelled::Reason::deadline);
+      } else if (watch.gone()) {
+        withdraw(*entry, Cancelled::Reason::client_gone);
+      }
     }
   }
 }
@@ -153,6 +169,7 @@ void RenderQueue::withdraw(Entry& entry, Cancelled::Reason reason) {
   ++counts_.of(reason);
   entry.error = std::make_exception_ptr(Cancelled(reason));
   entry.state = Entry::State::done;
+  entry.finished.notify_all();
   work_here_.notify_all();
 }
 
@@ -168,8 +185,8 @@ void RenderQueue::work() {
 bool RenderQueue::make_engine(std::string reason) {
   while (losses_in_a_row_ <= most_repairs_in_a_row) {
     try {
-      engine_.reset();
-      engine_ = std::make_unique<Engine>(options_.engine);
+      set_engine(nullptr);  // before the next one: there may be no room for two
+      set_engine(std::make_unique<Engine>(options_.engine));
       if (options_.warm) engine_->warm();
       engine_->inject(std::exchange(options_.faults, {}));
       const std::lock_guard lock(mutex_);
@@ -186,6 +203,12 @@ bool RenderQueue::make_engine(std::string reason) {
   }
   fail(reason);
   return false;
+}
+
+void RenderQueue::set_engine(std::unique_ptr<Engine> engine) {
+  const std::lock_guard lock(mutex_);
+  engine_.swap(engine);
+  table_bytes_ = 0;
 }
 
 bool RenderQueue::fits(const Entry& entry) const {
@@ -307,7 +330,7 @@ void RenderQueue::attempt(Entry& entry) {
     entry.job.work(*engine_, watch);
   }
   const std::lock_guard lock(mutex_);
-  memory_ = {engine_->device_bytes(), engine_->tables().bytes};
+  table_bytes_ = engine_->tables().bytes;
   recent_ms_.push_back(ms_between(start, Clock::now()) - entry.ticket.given_away_ms);
   if (recent_ms_.size() > recent_jobs) recent_ms_.pop_front();
 }
@@ -370,9 +393,10 @@ std::size_t RenderQueue::depth() const {
   return waiting_.size();
 }
 
-RenderQueue::MemoryUse RenderQueue::memory() const {
+RenderQueue::DeviceUse RenderQueue::device_use() const {
   const std::lock_guard lock(mutex_);
-  return memory_;
+  if (!engine_) return {};
+  return {engine_->device_bytes(), table_bytes_, engine_->kernels()};
 }
 
 RenderQueue::Counts RenderQueue::counts() const {

@@ -68,9 +68,10 @@ class RenderQueue {
       return reason == Cancelled::Reason::deadline ? past_deadline : client_gone;
     }
   };
-  /// Of the device's memory, as of the end of the last job.
-  struct MemoryUse {
-    std::size_t device_bytes = 0, table_bytes = 0;
+  struct DeviceUse {
+    std::size_t bytes = 0;        ///< of its memory, now: frames that are being encoded too
+    std::size_t table_bytes = 0;  ///< of those, in tables, as of the end of the last job
+    KernelUse kernels;
   };
 
   /// Starts to make the engine, on the queue's own thread.
@@ -103,7 +104,7 @@ class RenderQueue {
   /// Of the places, those that one client may hold, so that some are left for the others.
   std::size_t share() const { return options_.capacity - options_.capacity / 4; }
   Counts counts() const;
-  MemoryUse memory() const;
+  DeviceUse device_use() const;
 
  private:
   struct Entry;
@@ -112,9 +113,11 @@ class RenderQueue {
   std::optional<QueueFull::Whose> full(const std::string& client) const;
   void admit(const std::string& client);
   void wait(Entry& entry);
+  void look_after_waiting();
   void withdraw(Entry& entry, Cancelled::Reason reason);
   void work();
   bool make_engine(std::string reason);
+  void set_engine(std::unique_ptr<Engine> engine);
   std::shared_ptr<Entry> next();
   std::shared_ptr<Entry> much_shorter_than(const Entry& running);
   bool fits(const Entry& entry) const;
@@ -132,7 +135,7 @@ class RenderQueue {
 
   Options options_;
   mutable std::mutex mutex_;
-  std::condition_variable work_here_;
+  std::condition_variable work_here_, someone_waits_;
   /// A client's n-th waiting job has its turn n rounds from now (start-time fair queueing with
   /// equal weights [Goyal, Vin and Cheng 1996]).
   std::map<Place, std::shared_ptr<Entry>> waiting_;
@@ -142,15 +145,15 @@ class RenderQueue {
   std::size_t frame_bytes_alive_ = 0;
   std::deque<double> recent_ms_;
   Counts counts_;
-  MemoryUse memory_;
+  std::size_t table_bytes_ = 0;
   bool stopping_ = false;
   std::atomic<bool> ready_{false}, failed_{false};
   std::optional<DeviceDescription> device_;
   std::string failure_;
   int losses_in_a_row_ = 0;
   std::atomic<int> jobs_open_ = 0;  ///< on the device's thread, one within the other
-  std::unique_ptr<Engine> engine_;
-  std::thread thread_;
+  std::unique_ptr<Engine> engine_;  ///< the device's thread's; changes under the mutex
+  std::thread thread_, caretaker_;
 };
 
 }  // namespace cyanometer

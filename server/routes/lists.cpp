@@ -55,17 +55,12 @@ json presets_document() {
 }
 
 json limits_document(const Config& config) {
-  return {{"pixels", config.max_pixels},
-          {"wavelengths", config.max_wavelengths},
-          {"samples", config.max_samples},
-          {"device_s", config.max_device_s},
-          {"frames", config.max_frames},
-          {"directions", most_directions},
-          {"body_bytes", config.body_bytes()},
-          {"frame_bytes", config.frame_bytes()},
-          {"queue", config.queue},
-          {"connections", config.threads},
-          {"deadline_s", config.deadline_s}};
+  return {{"pixels", config.max_pixels},       {"wavelengths", config.max_wavelengths},
+          {"samples", config.max_samples},     {"device_s", config.max_device_s},
+          {"frames", config.max_frames},       {"directions", most_directions},
+          {"body_bytes", config.body_bytes()}, {"frame_bytes", config.frame_bytes()},
+          {"kernels", config.kernels},         {"queue", config.queue},
+          {"connections", config.threads},     {"deadline_s", config.deadline_s}};
 }
 
 Route list(const std::string& path, const std::string& summary,

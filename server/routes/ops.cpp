@@ -57,10 +57,16 @@ std::string metrics_of(Service& service) {
                frames.kept);
   out += value("cyanometer_kept_frame_bytes", "gauge", "Memory of kept frames.",
                frames.kept_bytes);
-  const auto memory = service.queue.memory();
-  out += value("cyanometer_table_bytes", "gauge", "Memory of tables.", memory.table_bytes);
+  const auto device = service.queue.device_use();
+  out += value("cyanometer_table_bytes", "gauge", "Memory of tables.", device.table_bytes);
   out += value("cyanometer_device_memory_bytes", "gauge", "The device's memory in use.",
-               memory.device_bytes);
+               device.bytes);
+  out += value("cyanometer_kernels", "gauge", "Compiled kernels that are kept.",
+               device.kernels.kept);
+  out += value("cyanometer_kernels_capacity", "gauge", "Compiled kernels that may be kept.",
+               service.config.kernels);
+  out += value("cyanometer_kernels_compiled_total", "counter",
+               "Kernels compiled since the device was made.", device.kernels.compiled);
   out += value("cyanometer_connections", "gauge", "Open connections.", service.connections());
   out +=
       value("cyanometer_ready", "gauge", "1 when requests are taken.", service.ready() ? 1 : 0);

@@ -32,13 +32,16 @@ int number_from_environment(const char* name, int otherwise) {
 
 /// A daemon in a process of its own, ready.
 struct Served {
-  explicit Served(const std::string& cache_mb = "256")
-      : run({"serve", "--listen", "127.0.0.1:0", "--ops-listen", "127.0.0.1:0", "--cache-mb",
-             cache_mb}),
-        port(run.port()),
-        ops_port(run.port("ops_port")) {
+  explicit Served(const std::vector<std::string>& settings = {})
+      : run(with(settings)), port(run.port()), ops_port(run.port("ops_port")) {
     for (int i = 0; i < 6000 && !ready(); ++i) std::this_thread::sleep_for(10ms);
     EXPECT_TRUE(ready()) << run.err();
+  }
+  static std::vector<std::string> with(const std::vector<std::string>& settings) {
+    std::vector<std::string> all{"serve", "--listen", "127.0.0.1:0", "--ops-listen",
+                                 "127.0.0.1:0"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return all;
   }
   httplib::Client client() const {
     httplib::Client made("127.0.0.1", port);
@@ -86,33 +89,50 @@ LoadReport load(LoadSettings& settings) {
   return report;
 }
 
+/// Frames a second of the time that the generator left to the daemon: it works on the same
+/// processors, and what asking takes there is none of the daemon's doing.
+double frames_per_s_left(const LoadReport& report) {
+  const double cores = std::thread::hardware_concurrency();
+  return static_cast<double>(report.frame_ms.size()) / (report.seconds - report.cpu_s / cores);
+}
+
 /// Peak and overload in turn, so that what else goes on here meets both: each overload is held
-/// against the peaks before and after it.
-TEST(Abuse, Overload) {
-  const int rounds = number_from_environment("CYANOMETER_ROUNDS", 7);
+/// against the peaks before and after it. The law is about the daemon: at ten times what it can
+/// do it makes as many frames as at its peak, 95 % of them at least, in the time that the
+/// generator leaves it, which asks ten times as much then. What came without that reckoning is
+/// reported beside it.
+void overload(const json& scene, int rounds) {
   Served served;
   LoadSettings settings;
   settings.origin = served.origin();
-  settings.scene = tiny_scene();
+  settings.scene = scene;
   const auto peak = [&] {
     settings.clients = 16;
     settings.rate.reset();
     settings.seconds = 5;
-    return load(settings).frames_per_s();
+    return load(settings);
   };
   peak();  // plans, pipelines, the pacer
-  std::vector<double> peaks{peak()}, ratios, rejects, frames;
+  std::vector<LoadReport> peaks{peak()};
+  std::vector<double> peak_rates{peaks.back().frames_per_s()}, rates, ratios, ratios_left,
+      rejects;
   double cpu_s = 0, seconds = 0;
   for (int round = 0; round < rounds; ++round) {
-    settings.rate = 10 * peaks.back();
+    settings.rate = 10 * peak_rates.back();
     settings.clients = 300;  // beyond three quarters of the threads idle ones are let go
     const LoadReport over = load(settings);
     peaks.push_back(peak());
-    frames.push_back(over.frames_per_s());
-    ratios.push_back(2 * frames.back() / (peaks[peaks.size() - 2] + peaks.back()));
-    std::printf("peak %.1f, at ten times that %.1f, then %.1f: %.3f\n%s\n",
-                peaks[peaks.size() - 2], frames.back(), peaks.back(), ratios.back(),
-                load_document(over).dump().c_str());
+    const auto against_the_peaks = [&](auto rate) {
+      return 2 * rate(over) / (rate(peaks[peaks.size() - 2]) + rate(peaks.back()));
+    };
+    rates.push_back(over.frames_per_s());
+    peak_rates.push_back(peaks.back().frames_per_s());
+    ratios.push_back(against_the_peaks([](const auto& each) { return each.frames_per_s(); }));
+    ratios_left.push_back(against_the_peaks(frames_per_s_left));
+    std::printf(
+        "peak %.1f, at ten times that %.1f, then %.1f: %.3f, %.3f of the time left\n%s\n",
+        peak_rates[peak_rates.size() - 2], rates.back(), peak_rates.back(), ratios.back(),
+        ratios_left.back(), load_document(over).dump().c_str());
     for (const auto& [status, count] : over.statuses) {
       EXPECT_TRUE(status == 200 || status == 429 || status == 503) << status << ": " << count;
     }
@@ -125,13 +145,24 @@ TEST(Abuse, Overload) {
   }
   std::printf(
       "%zu turned away in %.2f ms (half), %.2f ms (99 %%); %.1f frames a second at ten times "
-      "the peak of %.1f, medians; their ratio is %.3f (median; %.3f to %.3f); the generator "
-      "took %.1f s of CPU in %.0f s\n",
-      rejects.size(), quantile(rejects, 0.5), quantile(rejects, 0.99), quantile(frames, 0.5),
-      quantile(peaks, 0.5), quantile(ratios, 0.5), quantile(ratios, 0), quantile(ratios, 1),
-      cpu_s, seconds);
+      "the peak of %.1f, medians; their ratio is %.3f (median; %.3f to %.3f), of the time that "
+      "the generator left %.3f (%.3f to %.3f); it took %.1f s of CPU in %.0f s\n",
+      rejects.size(), quantile(rejects, 0.5), quantile(rejects, 0.99), quantile(rates, 0.5),
+      quantile(peak_rates, 0.5), quantile(ratios, 0.5), quantile(ratios, 0),
+      quantile(ratios, 1), quantile(ratios_left, 0.5), quantile(ratios_left, 0),
+      quantile(ratios_left, 1), cpu_s, seconds);
   EXPECT_LT(quantile(rejects, 0.99), 10);
-  EXPECT_GE(quantile(ratios, 0.5), 0.95);
+  EXPECT_GE(quantile(ratios_left, 0.5), 0.95);
+}
+
+TEST(Abuse, Overload) {
+  overload(tiny_scene(), number_from_environment("CYANOMETER_ROUNDS", 7));
+}
+
+/// As people ask for: turning away ten times as many is nothing beside one of these.
+TEST(Abuse, OverloadWithFramesOf720p) {
+  overload({{"image", {{"width", 1280}, {"height", 720}}}},
+           number_from_environment("CYANOMETER_LARGE_ROUNDS", 2));
 }
 
 /// Probes while something goes on; the worst times of 200.
@@ -390,9 +421,55 @@ TEST(Abuse, StoppedInTheMiddle) {
   EXPECT_GT(frames, stops);
 }
 
+/// The n-th of 70 forms of scene, kernels for which are alike in size: four absorbers of five
+/// kinds of profile.
+json scene_of_form(std::size_t n) {
+  const std::vector<json> profiles{
+      {{"type", "exponential"}, {"scale_height_km", 5}},
+      {{"type", "tent"}, {"centre_km", 20}, {"half_width_km", 10}},
+      {{"type", "quadratic"}},
+      {{"type", "uniform"}},
+      {{"type", "table"}, {"altitude_km", {0, 10, 50}}, {"density", {1, 0.5, 0.1}}}};
+  std::vector<std::vector<std::size_t>> forms;
+  for (std::size_t code = 0; code < 625; ++code) {
+    const std::vector kinds{code % 5, code / 5 % 5, code / 25 % 5, code / 125};
+    if (std::ranges::is_sorted(kinds)) forms.push_back(kinds);
+  }
+  json scene = tiny_scene();
+  scene["method"] = {{"name", "nishita"}, {"view_samples", 8}, {"light_samples", 4}};
+  scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
+  for (const std::size_t kind : forms.at(n)) {
+    json& constituents = scene["atmosphere"]["constituents"];
+    constituents["absorber_" + std::to_string(constituents.size())] = {
+        {"type", "absorber"}, {"absorption_per_km", 1e-4}, {"profile", profiles[kind]}};
+  }
+  return scene;
+}
+
+TEST(Abuse, FormsOfScenesWithoutEnd) {
+  Served served({"--kernels", "64", "--cache-mb", "16"});
+  const auto meet = [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      const auto answer =
+          served.client().Post("/v1/render", scene_of_form(n).dump(), "application/json");
+      ASSERT_TRUE(answer && answer->status == 200) << n;
+      EXPECT_LE(served.metric("cyanometer_kernels"), 64);
+    }
+  };
+  meet(0, 4);  // tables, and as many kernels as are kept
+  const double resident = served.resident_mib();
+  const double compiled = served.metric("cyanometer_kernels_compiled_total");
+  meet(4, 14);
+  std::printf("%.0f kernels compiled: resident %.1f MiB, %.0f: %.1f MiB\n", compiled, resident,
+              served.metric("cyanometer_kernels_compiled_total"), served.resident_mib());
+  EXPECT_GT(served.metric("cyanometer_kernels_compiled_total"), compiled + 128);
+  EXPECT_NEAR(served.resident_mib(), resident, 0.1 * resident);
+}
+
 TEST(Abuse, Soak) {
   const double renders = number_from_environment("CYANOMETER_RENDERS", 100000);
-  Served served("16");  // full of frames after a tenth: what it keeps grows no more
+  Served served(
+      {"--cache-mb", "16"});  // full of frames after a tenth: what it keeps grows no more
   LoadSettings settings;
   settings.origin = served.origin();
   settings.clients = 4;
@@ -402,7 +479,7 @@ TEST(Abuse, Soak) {
   settings.scene["spectrum"] = {{"wavelengths_nm", {680, 550, 440}}};
   const std::string count = "cyanometer_frames_rendered_total";
   while (served.metric(count) < 0.1 * renders) load(settings);
-  std::this_thread::sleep_for(1s);  // the last connections are closed
+  std::this_thread::sleep_for(1s);  // the last frames are encoded, their connections closed
   const double resident = served.resident_mib();
   const double device = served.metric("cyanometer_device_memory_bytes");
   const auto files = served.open_files();

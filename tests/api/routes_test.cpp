@@ -621,6 +621,7 @@ TEST(Lists, TheLimitsAreThoseOfTheContract) {
   EXPECT_EQ(limits.at("directions"), 4096);
   EXPECT_EQ(limits.at("deadline_s"), 600);
   EXPECT_EQ(limits.at("queue"), 64);
+  EXPECT_EQ(limits.at("kernels"), 192);
   EXPECT_GT(limits.at("body_bytes"), 0);
   EXPECT_GT(limits.at("frame_bytes"), 0);
 }

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 #include "engine/engine.h"
 #include "engine/vulkan/commands.h"
@@ -92,10 +93,51 @@ TEST_F(Combine, EachSpecializationIsAPipelineOfItsOwn) {
 }
 
 TEST_F(Combine, MoreSpecializationsThanAreKeptStillRun) {
+  device.keep_pipelines(8);
   for (std::uint32_t factor = 0; factor < 100; ++factor)
     commands.dispatch(kernel, {factor}, {a, b, c}, bytes_of(Push{64, 0}), {});
   commands.submit_and_wait();
   EXPECT_EQ(result(5), 5 + 99u * 7);
+  EXPECT_EQ(device.pipelines().kept, 8u);
+  EXPECT_EQ(device.pipelines().made, 100u);
+}
+
+TEST_F(Combine, OfAllKernelsPipelinesThoseUsedLastAreKept) {
+  device.keep_pipelines(3);
+  const Kernel other(device, combine_spirv, 3, sizeof(Push));
+  const auto made_by = [&](const Kernel& one, std::uint32_t factor) {
+    const auto before = device.pipelines().made;
+    commands.dispatch(one, {factor}, {a, b, c}, bytes_of(Push{}), kGroups);
+    commands.submit_and_wait();
+    EXPECT_EQ(result(5), 5 + factor * 7);
+    EXPECT_LE(device.pipelines().kept, 3u);
+    return device.pipelines().made - before;
+  };
+  EXPECT_EQ(made_by(kernel, 1), 1u);
+  EXPECT_EQ(made_by(other, 1), 1u);
+  EXPECT_EQ(made_by(kernel, 2), 1u);
+  EXPECT_EQ(made_by(kernel, 1), 0u) << "it is kept";
+  EXPECT_EQ(made_by(kernel, 3), 1u) << "the other kernel's has to go";
+  EXPECT_EQ(made_by(kernel, 1), 0u);
+  EXPECT_EQ(made_by(kernel, 2), 0u);
+  EXPECT_EQ(made_by(other, 1), 1u) << "it went";
+  device.keep_pipelines(1);
+  EXPECT_EQ(device.pipelines().kept, 1u);
+  EXPECT_EQ(made_by(other, 1), 0u);
+}
+
+TEST_F(Combine, AKernelThatGoesTakesItsPipelinesAlong) {
+  run({1}, {});
+  {
+    const Kernel other(device, combine_spirv, 3, sizeof(Push));
+    commands.dispatch(other, {2}, {a, b, c}, bytes_of(Push{}), kGroups);
+    commands.submit_and_wait();
+    EXPECT_EQ(device.pipelines().kept, 2u);
+  }
+  EXPECT_EQ(device.pipelines().kept, 1u);
+  device.keep_pipelines(1);
+  run({3}, {});
+  EXPECT_EQ(result(5), 5 + 3u * 7);
 }
 
 TEST_F(Combine, PushConstantsReachTheShader) {
