@@ -450,8 +450,8 @@ const MethodDescription& moments_description() {
             "at dusk.",
             {2},
             [](const SceneTraits& scene) { return scene.haze > 0.02 && scene.sun_deg < 5; }},
-           {"Late twilight is off by 3 % at a sun of -9 deg and 8 % at -12, where a "
-            "number of orders is asked for by as much again.",
+           {"Late twilight is off by 3 % from a sun of -9 deg on, also where a number of "
+            "orders is asked for.",
             {7, 8},
             [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
            {"Thick air loses light: of an optical depth of 3 over white ground 6 %, of 10 a "
