@@ -39,19 +39,23 @@ export class Daemon {
   get address() {
     return `http://127.0.0.1:${this.port}/`;
   }
+  get #runs() {
+    return this.process?.exitCode === null && this.process.signalCode === null;
+  }
   async resume() {
+    if (this.#runs) return;
     this.process = spawn(binary, ['serve', '--log-level', 'warning', '--listen', `127.0.0.1:${this.port}`],
                          { stdio: ['ignore', 'ignore', 'inherit'] });
     for (let attempt = 0; attempt < 1200; ++attempt) {
       const ready = await fetch(`${this.address}readyz`).catch(() => undefined);
       if (ready?.ok) return;
-      if (this.process.exitCode !== null) break;
+      if (!this.#runs) break;
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
     throw new Error(`${binary} serve did not become ready`);
   }
   async stop() {
-    if (this.process.exitCode !== null) return;
+    if (!this.#runs) return;
     const exit = once(this.process, 'exit');
     this.process.kill('SIGKILL');
     await exit;
@@ -90,25 +94,46 @@ function countFrames() {
   };
 }
 
+const PATIENCE_MS = 90000;  // laws, not speeds: machines may be slow
+
 /** Somebody who looks at the page; what the console complains of is in `complaints`. */
 export class Person {
-  static async arrive(browser, daemon, size, { hash = '', ...options } = {}) {
+  /**
+   * Comes to the page at one of `SIZES` and waits until the sky is there. `hash` names the sky; `patience`
+   * is what each wait may take, in ms; `breakage` the `{ file, text, instead }` that is served otherwise (no
+   * file where there is no text); what else there is goes to the browser.
+   */
+  static async arrive({ browser, daemon }, size, { hash = '#preset=earth', patience = PATIENCE_MS, breakage, ...options } = {}) {
     const person = new Person();
-    person.size = size;
-    person.complaints = [];
+    Object.assign(person, { size, patience, complaints: [] });
     person.context = await browser.newContext({ ...SIZES[size], acceptDownloads: true, ...options });
     await person.context.grantPermissions(['clipboard-read', 'clipboard-write']);
     person.page = await person.context.newPage();
-    person.page.setDefaultTimeout(90000);  // laws, not speeds: machines may be slow
+    person.page.setDefaultTimeout(patience);
     person.page.on('console', (message) => {
       if (message.type() === 'error') person.complaints.push(message.text());
     });
     person.page.on('pageerror', (error) => person.complaints.push(String(error)));
     await person.page.addInitScript(countFrames);
-    await person.page.goto(daemon.address + hash);
-    await person.page.locator('.fold').first().waitFor();
-    await person.rest();
+    if (breakage) await person.#break(breakage);
+    try {
+      await person.page.goto(daemon.address + hash);
+      await person.page.locator('.fold').first().waitFor();
+      await person.rest();
+    } catch (error) {
+      await person.leave();
+      throw error;
+    }
     return person;
+  }
+
+  async #break({ file, text, instead }) {
+    const place = file === 'index.html' ? '/' : `/${file}`;
+    await this.context.route(({ pathname }) => pathname === place, async (route) => {
+      if (text === undefined) return route.fulfill({ status: 404 });
+      const response = await route.fetch();
+      return route.fulfill({ response, body: (await response.text()).replace(text, () => instead) });
+    });
   }
 
   /** Waits until the picture on screen is the final one. */
@@ -119,7 +144,7 @@ export class Person {
       const full = Math.round(picture.clientWidth * devicePixelRatio);
       return window.frameRequests.flying === 0 && picture.dataset.state === 'sharp' &&
         Math.abs(picture.width - full) <= 2;
-    }, undefined, { timeout: 90000 });
+    }, undefined, { timeout: this.patience });
   }
   async leave() {
     await this.context.close();
