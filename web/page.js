@@ -76,8 +76,10 @@ export class Page {
   // ---- The tabs -------------------------------------------------------------------------------
 
   #adjustPage(schema) {
-    const { state, view, controls, limits } = this;
+    const { state, view, camera, controls, limits } = this;
     const constituents = new Constituents(state, schema, controls);
+    controls.companions = (path, value) =>
+      ({ ...constituents.ties.companions(path, value), ...camera.companions(path, value) });
     const options = new MethodOptions(this.#methods, state, controls, limits.element);
     this.#methodOptions = options;
     const fold = () => byId('adjust').querySelector('[data-group=day]');

@@ -57,8 +57,8 @@ const BY_SENTENCE = {
   ],
   'visibility and optical depth move together': [
     ['the optical depth that follows', 'together.js', 'if (now > 0 && value > 0) state.edit({ [path]: scaled(state.value(path), now / value) });', NOTHING],
-    ['the visibility that follows', 'together.js', 'return { element, refresh: () => editor.refresh() };',
-     `return { element, refresh: () => { if (!element.querySelector('.typed').value) editor.refresh(); } };`],
+    ['the visibility that follows', 'together.js', 'return known && then > 0 && now > 0 ? known * (then / now) : undefined;',
+     'return known && (window.firstVisibility ??= known);'],
   ],
   'temperature and scale height move together when they are tied': [
     ['the tie', 'together.js', 'if (!this.#tied.has(root)) return {};', 'return {};'],
@@ -92,7 +92,8 @@ const BY_SENTENCE = {
     ['folding by a key', 'page.js', 'this.panel.toggle();', ';'],
   ],
   'one flies from the ground to space': [
-    ['climbing', 'camera.js', `this.state.edit({ 'camera.altitude_km': tidy(next, 4) });`, NOTHING, 'desktop'],
+    ['climbing', 'camera.js', `const edit = { 'camera.altitude_km': tidy(next, 4) };`, 'const edit = {};', 'desktop'],
+    ['the horizon in sight', 'camera.js', `return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };`, 'return {};'],
     ['the slider', 'editors.js', 'oninput: () => binding.set(scale.toValue(Math.round(slider.valueAsNumber))),', NOTHING, 'phone'],
     ['another picture', 'view.js', 'this.context.transferFromImageBitmap(bitmap);', 'if (!this.drawn) { this.context.transferFromImageBitmap(bitmap); this.drawn = bitmap.width > 700; }'],
   ],

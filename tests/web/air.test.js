@@ -156,9 +156,7 @@ visit('a time-lapse plays in any page, in an <img>', async (person, page) => {
   const last = await look();
   await show(`stream?${link}&sun.elevation_deg=30&frames=60&to.sun.elevation_deg=-2`);
   const seen = new Set();
-  for (const ends = Date.now() + person.patience; !seen.has(last); seen.add(await look())) {
-    assert.ok(Date.now() < ends, 'the last frame comes');
-  }
+  await person.until(async () => seen.add(await look()).has(last), 'the last frame comes');
   assert.ok(seen.size > 5, `${seen.size} frames were seen`);
 });
 
@@ -169,11 +167,11 @@ visit('the day plays as a time-lapse', async (person, page) => {
   const skies = new Set();
   await page.getByRole('button', { name: 'Play the day' }).click();
   await page.getByRole('button', { name: 'Stop' }).waitFor();
-  for (const ends = Date.now() + person.patience; moments.size < 4 || skies.size < 3;) {
-    assert.ok(Date.now() < ends, `the day goes on: ${moments.size} moments, ${skies.size} skies`);
+  await person.until(async () => {
     moments.add(await page.locator('.strip-now').innerText());
     skies.add(await person.look());
-  }
+    return moments.size >= 4 && skies.size >= 3;
+  }, 'the day goes on');
   await page.getByRole('button', { name: 'Stop' }).click();
   await person.rest();
   const { time } = (await person.scene()).sun.place;

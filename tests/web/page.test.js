@@ -14,6 +14,7 @@ const PNG = '89504e47';
 const EXR = '762f3101';
 const startOf = (bytes) => bytes.subarray(0, 4).toString('hex');
 
+const FEW = '&spectrum.wavelengths_nm=[680,550,440]';  // which is quick
 const visit = visits();
 
 visit('the picture fills the window and the controls fold away', async (person, page) => {
@@ -77,8 +78,11 @@ visit('a logarithmic slider moves by factors', async (person, page) => {
 visit('help says in words what a control is', async (person, page) => {
   const control = await person.find('sun.elevation_deg');
   await control.hover();
+  const help = control.locator('.help');
+  assert.equal(await help.isVisible(), false);
   await control.getByRole('button', { name: /What is/ }).click();
-  assert.ok((await control.locator('.help').innerText()).length > 20);
+  assert.ok(await help.isVisible());
+  assert.ok((await help.innerText()).length > 20);
 });
 
 visit('constituents have cards; they are switched off, added and removed',
@@ -104,7 +108,7 @@ visit('constituents have cards; they are switched off, added and removed',
     await page.locator('.card[data-name=dust] summary .name').click();
     await page.getByRole('button', { name: 'Remove Dust' }).click();
     assert.equal((await person.scene()).atmosphere, undefined);
-  });
+  }, { hash: `#preset=earth${FEW}` });
 
 visit('presets are thumbnails that the daemon has rendered', async (person, page) => {
   await person.tab('Skies');
@@ -150,13 +154,17 @@ visit('frames follow the hand, small, and sharpen when it rests', async (person,
 visit('the frame says its speed, method, options, error and exposure', async (person, page) => {
   const said = { Render: /^Render [\d.]+ ms$/, Method: /^Method Raymarch$/, Options: /^Options view nodes 7$/,
                  Error: /^Error ≤ [\d.]+ %/, Exposure: /^Exposure [+−][\d.]+ EV$/ };
+  // A phone has room for all of it when the controls are folded.
+  if (person.size === 'phone') await page.getByRole('button', { name: 'Fold the controls away' }).click();
   for (const [fact, text] of Object.entries(said)) {
-    assert.match(await page.locator(`[data-fact=${fact}]`).innerText(), text);
+    const place = page.locator(`[data-fact=${fact}]`);
+    assert.ok(await place.isVisible(), fact);
+    assert.match(await place.innerText(), text);
   }
   await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
   await page.locator('[data-fact=Frames]').waitFor();
   assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
-}, { hash: '#preset=earth&method.name=raymarch&method.view_nodes=7' });
+}, { hash: `#preset=earth${FEW}&method.name=raymarch&method.view_nodes=7` });
 
 visit('dragging looks around', async (person, page) => {
   await person.drag({ x: 0.2, y: 0.7 }, { x: 0.5, y: 0.8 });
@@ -181,6 +189,8 @@ visit('one flies from the ground to space', async (person, page) => {
   assert.ok((await altitude()) > 400, `${await altitude()} km`);
   await person.rest();
   assert.notEqual(await person.look(), ground);
+  const { pitch_deg: pitch } = (await person.scene()).camera;
+  assert.ok(pitch < -5, `the horizon, which has sunk, is kept in sight: ${pitch}`);
   await person.photograph('space');
 });
 
@@ -283,6 +293,9 @@ visit('an EXR has its layers apart, an environment map is a whole sphere', async
 });
 
 visit('a slider dragged for ten seconds leaves no request and no error behind', async (person, page) => {
+  const open = new Set();
+  page.on('request', (request) => open.add(request));
+  for (const end of ['requestfinished', 'requestfailed']) page.on(end, (request) => open.delete(request));
   const slider = (await person.find('sun.elevation_deg')).locator('input[type=range]');
   const box = await slider.boundingBox();
   const y = box.y + box.height / 2;
@@ -294,8 +307,12 @@ visit('a slider dragged for ten seconds leaves no request and no error behind', 
   }
   await person.lift();
   await person.rest();
-  const { flying, failed, most } = await person.requests();
+  const { started, flying, failed, most } = await person.requests();
+  assert.ok(started > 5, `${started} frames`);
   assert.deepEqual({ flying, failed, most }, { flying: 0, failed: 0, most: 1 });
+  await person.until(() => page.waitForTimeout(50).then(() => !open.size), 'what was asked when the hand rested ends too');
+  const metrics = await (await fetch(new URL('/metrics', page.url()))).text();
+  for (const idle of [/^cyanometer_queue_depth 0$/m, /^cyanometer_device_busy 0$/m]) assert.match(metrics, idle);
 });
 
 visit('what is not a number is refused where it was typed', async (person, page) => {
@@ -327,7 +344,7 @@ for (const colorScheme of ['light', 'dark']) {
     assert.equal(Number(red) > 128, colorScheme === 'dark');
     await person.tab('Adjust');
     await person.photograph(colorScheme);
-  }, { colorScheme });
+  }, { colorScheme, hash: `#preset=earth${FEW}` });
 }
 
 visit('the wheel, or two fingers, zoom', async (person, page) => {
