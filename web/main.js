@@ -46,7 +46,14 @@ view.addEventListener('frame', () => {
 state.addEventListener('change', () => view.change());
 bindAddress(state);
 
-import('./page.js').then(({ Page }) => {
+// What is around the picture must not take its time from it, nor wait for one that is long in coming.
+const LONGEST_WAIT_MS = 500;
+const begun = new Promise((resolve) => {
+  for (const event of ['frame', 'waiting', 'refused']) view.addEventListener(event, resolve, { once: true });
+  setTimeout(resolve, LONGEST_WAIT_MS);
+});
+
+begun.then(() => import('./page.js')).then(({ Page }) => {
   page = new Page({ state, view, camera, say });
   return page.furnish();
 }, () => say('The daemon went away before all of this page was there; reload it.', 'lost'))

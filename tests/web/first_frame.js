@@ -25,9 +25,14 @@ function watch() {
       requestAnimationFrame(() => {
         const { port1, port2 } = new MessageChannel();
         port1.onmessage = () => {  // after that frame has been painted
-          const [asked] = performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/v1/render'));
-          resolve({ 'frame asked for': asked.startTime, 'frame there': asked.responseEnd, drawn,
-                    'on screen': performance.now(), pixels });
+          const shown = performance.now();
+          const tell = () => {  // the browser notes requests at its leisure
+            const [asked] = performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/v1/render'));
+            if (!asked) return setTimeout(tell, 10);
+            return resolve({ 'frame asked for': asked.startTime, 'frame there': asked.responseEnd, drawn,
+                             'on screen': shown, pixels });
+          };
+          tell();
         };
         port2.postMessage(undefined);
       });
