@@ -264,7 +264,7 @@ const BY_SENTENCE = {
   'a refusal is shown beside its control, under the last good picture': [
     ['its place', 'main.js', 'const beside = error.pointer && page?.controls?.complain(fromPointer(error.pointer), error.message);', 'const beside = false;'],
     ['the last good picture', 'main.js', `view.addEventListener('refused', ({ detail }) => sayRefused(detail));`,
-     `view.addEventListener('refused', ({ detail }) => { sayRefused(detail); picture.width = 8; });`],
+     `view.addEventListener('refused', ({ detail }) => { sayRefused(detail); view.context.transferFromImageBitmap(null); });`],
     ['its end', 'main.js', `page?.controls?.forgive();`, NOTHING],
   ],
 

@@ -174,6 +174,7 @@ visit('the day plays as a time-lapse', async (person, page) => {
   }, 'the day goes on');
   await page.getByRole('button', { name: 'Stop' }).click();
   await person.rest();
+  assert.ok(Number(await page.getByLabel('Time of day').inputValue()) < 950, 'the day was not over');
   const { time } = (await person.scene()).sun.place;
   assert.ok((await page.locator('.strip-now').innerText()).startsWith(time.slice(11, 16)));
   assert.equal(await page.locator('#status').textContent(), '');
