@@ -1,7 +1,7 @@
 // Hands on the picture: drag to look, drag the sun, wheel and pinch to zoom, keys to fly. A press
 // that does not move is a `tap` (detail: {x, y}) of the canvas.
 
-import { angles, direction, fromPixel, toPixel, wrapDegrees } from './projection.js';
+import { angles, direction, fromPixel, horizonDipDeg, toPixel, wrapDegrees } from './projection.js';
 
 const SUN_GRIP_PX = { mouse: 18, touch: 34, pen: 24 };
 const STILL_PX = 5;
@@ -147,10 +147,20 @@ export class Camera {
     this.state.edit({ 'camera.fov_deg': tidy(clamp(this.#fovDeg * factor, NARROWEST_DEG, widest)) });
   }
 
+  /** What an edit of `path` brings along: who climbs keeps the horizon where it is in the picture. */
+  companions(path, value) {
+    const { altitude_km: altitude, pitch_deg: pitch } = this.#camera;
+    const radius = this.state.value('planet.radius_km');
+    if (path !== 'camera.altitude_km' || ![value, altitude, pitch, radius].every(Number.isFinite)) return {};
+    const sunk = horizonDipDeg(value, radius) - horizonDipDeg(altitude, radius);
+    return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };
+  }
+
   climb(factor) {
     const altitude = this.#camera.altitude_km ?? 0;
     const next = clamp(Math.max(altitude, LOWEST_KM) * factor, LOWEST_KM, HIGHEST_KM);
-    this.state.edit({ 'camera.altitude_km': tidy(next, 4) });
+    const edit = { 'camera.altitude_km': tidy(next, 4) };
+    this.state.edit({ ...edit, ...this.companions('camera.altitude_km', edit['camera.altitude_km']) });
   }
 
   #raiseSun(byDeg) {

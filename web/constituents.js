@@ -45,7 +45,6 @@ export class Constituents {
     this.optics = new Optics(state);
     this.optics.addEventListener('curves', () => this.#live.forEach((one) => one.refresh()));
     this.ties = new Ties(state);
-    controls.companions = (path, value) => this.ties.companions(path, value);
     this.list = h('div', { className: 'cards' });
     this.element = h('div', {}, this.list, this.#addMenu());
     this.refresh();

@@ -36,13 +36,20 @@ export class DayStrip {
     const small = { ...scene, method: METHOD, camera: { ...scene.camera, ...VIEW },
                     image: { ...look, ...SLICE_PX, format: 'png' } };
     const frames = Array.from({ length: SLICES }, (_, i) => patchAt((i + 0.5) / SLICES));
-    const context = this.canvas.getContext('2d');
     return this.#task.run((signal) => stream(small, frames, async (blob, facts, at) => {
       const bitmap = await createImageBitmap(blob);
-      if (!signal.aborted) context.drawImage(bitmap, at * SLICE_PX.width, 0);
+      if (!signal.aborted) this.#put(bitmap, at);
       this.canvas.dataset.slices = String(at + 1);
       bitmap.close();
     }, signal), this.onWait);
+  }
+  // A slice stands at its moment and fades in from the one before.
+  #put(bitmap, at) {
+    const { width, height } = SLICE_PX;
+    const context = this.canvas.getContext('2d');
+    const middle = (at + 0.5) * width;
+    context.drawImage(bitmap, middle, 0);
+    context.drawImage(at ? faded(bitmap) : bitmap, middle - width, 0, width, height);
   }
   stop() {
     this.#task.stop();
@@ -74,4 +81,18 @@ export class DayStrip {
     this.slider.classList.toggle('unset', !set);
     this.slider.setAttribute('aria-valuetext', `${clock}${set ? '' : ', not chosen yet'}`);
   }
+}
+
+// The slice, clear at its left and opaque at its right.
+function faded(bitmap) {
+  const { width, height } = bitmap;
+  const context = new OffscreenCanvas(width, height).getContext('2d');
+  context.drawImage(bitmap, 0, 0);
+  const ramp = context.createLinearGradient(0, 0, width, 0);
+  ramp.addColorStop(0, 'transparent');
+  ramp.addColorStop(1, 'black');
+  context.globalCompositeOperation = 'destination-in';
+  context.fillStyle = ramp;
+  context.fillRect(0, 0, width, height);
+  return context.canvas;
 }

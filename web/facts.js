@@ -11,7 +11,7 @@ const REFRESH_MS = 250;
  * options)` are in words.
  */
 export function bindFacts(element, view, settings) {
-  let facts;
+  let { facts } = view;  // a frame may have come before
   let timer;
   const draw = () => {
     timer = undefined;
@@ -23,6 +23,7 @@ export function bindFacts(element, view, settings) {
     facts = detail;
     timer ??= setTimeout(draw, element.childElementCount ? REFRESH_MS : 0);
   });
+  draw();
 }
 
 function lines(facts, framesPerSecond, settings) {

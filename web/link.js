@@ -2,7 +2,7 @@
 
 import { equal, fromQuery, isObject, toQuery, unset } from './paths.js';
 
-const FIRST_PRESET = 'earth';
+const FIRST_PRESET = 'earth_sunset';
 // The window decides the picture's size, the download its format.
 const NOT_IN_LINKS = ['image.width', 'image.height', 'image.format', 'image.channels', 'image.layers'];
 

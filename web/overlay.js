@@ -29,7 +29,7 @@ export class Overlay {
     this.#draw(bitmap, width, height, label);
     return h('div', { className: 'error-scale', role: 'img',
                       'aria-label': 'Scale of the error picture: blue too dark, red too bright' },
-             bar, h('div', {}, LABELS.map((text) => h('span', {}, text))));
+             bar, h('div', {}, LABELS.map((text) => h('span', {}, text))), 'Grey was not measured.');
   }
 
   #draw(bitmap, width, height, label) {

@@ -8,6 +8,10 @@ export function direction(elevationDeg, azimuthDeg) {
   return [Math.cos(e) * Math.sin(a), Math.cos(e) * Math.cos(a), Math.sin(e)];
 }
 
+/** How far the horizon of a sphere lies below the horizontal, in degrees. */
+export const horizonDipDeg = (altitudeKm, radiusKm) =>
+  Math.acos(radiusKm / (radiusKm + Math.max(0, altitudeKm))) / RADIANS;
+
 /** The inverse of `direction`. */
 export function angles([x, y, z]) {
   return { elevationDeg: Math.atan2(z, Math.hypot(x, y)) / RADIANS,

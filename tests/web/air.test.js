@@ -1,9 +1,7 @@
 // What the air is made of as curves, what moves together, the sun of a place and a time.
 
 import assert from 'node:assert/strict';
-import { describe } from 'node:test';
 
-import { SIZES } from './person.js';
 import { visits } from './visits.js';
 
 const visit = visits();
@@ -19,168 +17,165 @@ const look = (card, name) => card.locator('.segmented').getByRole('button', { na
 const line = async (card) => (await card.locator('.plot path.line').first().getAttribute('d'))
   .match(/-?[\d.]+/g).map(Number);
 
-for (const size of Object.keys(SIZES)) {
-  describe(size, () => {
-    visit(size, 'a constituent is drawn against altitude, angle and wavelength', async (person, page) => {
-      const air = await open(page, 'air');
-      const profile = await line(air);
-      assert.ok(profile.at(-1) < profile[1], 'altitude goes up');
-      assert.ok(profile.at(-2) < profile[0], 'and density down');
-      await look(air, 'Spectrum');
-      const spectrum = await line(air);
-      assert.ok(spectrum[1] < spectrum.at(-1), 'blue is scattered more');
-      await look(air, 'Phase');
-      assert.match(await air.locator('.plot').getAttribute('aria-label'), /Phase/);
-      await air.locator('.curves').scrollIntoViewIfNeeded();
-      await person.photograph('phase');
-      const ozone = await open(page, 'ozone');
-      await look(ozone, 'Phase');
-      assert.match(await ozone.locator('.curves').innerText(), /does not scatter/);
-    });
+visit('a constituent is drawn against altitude, angle and wavelength', async (person, page) => {
+  const air = await open(page, 'air');
+  const profile = await line(air);
+  assert.ok(profile.at(-1) < profile[1], 'altitude goes up');
+  assert.ok(profile.at(-2) < profile[0], 'and density down');
+  await look(air, 'Spectrum');
+  const spectrum = await line(air);
+  assert.ok(spectrum[1] < spectrum.at(-1), 'blue is scattered more');
+  await look(air, 'Phase');
+  assert.match(await air.locator('.plot').getAttribute('aria-label'), /Phase/);
+  await air.locator('.curves').scrollIntoViewIfNeeded();
+  await person.photograph('phase');
+  const ozone = await open(page, 'ozone');
+  await look(ozone, 'Phase');
+  assert.match(await ozone.locator('.curves').innerText(), /does not scatter/);
+});
 
-    visit(size, 'the curves follow the sliders', async (person, page) => {
-      const air = await open(page, 'air');
-      const before = await line(air);
-      await person.find('atmosphere.constituents.air.profile');
-      const typed = person.control('atmosphere.constituents.air.profile').locator('.typed').first();
-      await typed.fill('4');
-      await typed.press('Enter');
-      await page.waitForFunction((old) =>
-        document.querySelector('.card[data-name=air] .plot path.line').getAttribute('d').length !== old,
-        (await air.locator('.plot path.line').first().getAttribute('d')).length);
-      assert.notDeepEqual(await line(air), before);
-    });
+visit('the curves follow the sliders', async (person, page) => {
+  const air = await open(page, 'air');
+  const before = await line(air);
+  await person.find('atmosphere.constituents.air.profile');
+  const typed = person.control('atmosphere.constituents.air.profile').locator('.typed').first();
+  await typed.fill('4');
+  await typed.press('Enter');
+  await page.waitForFunction((old) =>
+    document.querySelector('.card[data-name=air] .plot path.line').getAttribute('d').length !== old,
+    (await air.locator('.plot path.line').first().getAttribute('d')).length);
+  assert.notDeepEqual(await line(air), before);
+});
 
-    visit(size, 'visibility and optical depth move together', async (person, page) => {
-      const card = await open(page, 'aerosol');
-      const visibility = card.locator('.linked .typed');
-      const before = Number(await visibility.inputValue());
-      assert.ok(before > 10 && before < 100, `${before} km`);
-      await visibility.fill(String(before / 2));
-      await visibility.press('Enter');
-      const { optical_depth: depth } = (await person.scene()).atmosphere.constituents.aerosol;
-      assert.ok(Math.abs(depth.power_law.value - 0.2) < 0.002, JSON.stringify(depth));
-      const typed = (await person.find('atmosphere.constituents.aerosol.optical_depth')).locator('.typed').first();
-      await typed.fill('0.4');
-      await typed.press('Enter');
-      await person.rest();
-      assert.ok(Math.abs(Number(await visibility.inputValue()) - before / 4) < 0.02 * before);
-    });
+visit('visibility and optical depth move together', async (person, page) => {
+  const card = await open(page, 'aerosol');
+  const visibility = card.locator('.linked .typed');
+  const before = Number(await visibility.inputValue());
+  assert.ok(before > 10 && before < 100, `${before} km`);
+  await visibility.fill(String(before / 2));
+  await visibility.press('Enter');
+  const { optical_depth: depth } = (await person.scene()).atmosphere.constituents.aerosol;
+  assert.ok(Math.abs(depth.power_law.value - 0.2) < 0.002, JSON.stringify(depth));
+  const typed = (await person.find('atmosphere.constituents.aerosol.optical_depth')).locator('.typed').first();
+  await typed.fill('0.4');
+  await typed.press('Enter');
+  await person.rest();
+  assert.ok(Math.abs(Number(await visibility.inputValue()) - before / 4) < 0.02 * before);
+});
 
-    visit(size, 'temperature and scale height move together when they are tied', async (person, page) => {
-      const card = await open(page, 'air');
-      await person.type('atmosphere.constituents.air.temperature_k', '250');
-      assert.equal((await person.scene()).atmosphere.constituents.air.profile, undefined);
-      await card.getByRole('switch', { name: /temperature and scale height together/i }).click();
-      await person.type('atmosphere.constituents.air.temperature_k', '125');
-      const { profile } = (await person.scene()).atmosphere.constituents.air;
-      assert.deepEqual(profile, { type: 'exponential', scale_height_km: 4 });
-    });
+visit('temperature and scale height move together when they are tied', async (person, page) => {
+  const card = await open(page, 'air');
+  await person.type('atmosphere.constituents.air.temperature_k', '250');
+  assert.equal((await person.scene()).atmosphere.constituents.air.profile, undefined);
+  await card.getByRole('switch', { name: /temperature and scale height together/i }).click();
+  await person.type('atmosphere.constituents.air.temperature_k', '125');
+  const { profile } = (await person.scene()).atmosphere.constituents.air;
+  assert.deepEqual(profile, { type: 'exponential', scale_height_km: 4 });
+});
 
-    visit(size, 'a spectrum is edited as red, green and blue', async (person, page) => {
-      const albedo = await person.find('planet.ground_albedo');
-      await albedo.locator('.form-choice').selectOption('Red, green, blue');
-      await person.rest();
-      const green = albedo.locator('.number.green .typed');
-      await green.fill('0.6');
-      await green.press('Enter');
-      await person.rest();
-      const scene = await person.scene();
-      assert.deepEqual(scene.planet.ground_albedo, [0.1, 0.6, 0.1]);
-      assert.equal(scene.spectrum.wavelengths_nm.length, 3);
-      assert.equal(await page.locator('#status').textContent(), '');
-    });
+visit('a spectrum is edited as red, green and blue', async (person, page) => {
+  const albedo = await person.find('planet.ground_albedo');
+  await albedo.locator('.form-choice').selectOption('Red, green, blue');
+  await person.rest();
+  const green = albedo.locator('.number.green .typed');
+  await green.fill('0.6');
+  await green.press('Enter');
+  await person.rest();
+  const scene = await person.scene();
+  assert.deepEqual(scene.planet.ground_albedo, [0.1, 0.6, 0.1]);
+  assert.equal(scene.spectrum.wavelengths_nm.length, 3);
+  assert.equal(await page.locator('#status').textContent(), '');
+});
 
-    visit(size, 'a spectrum is edited as a curve of nodes', async (person, page) => {
-      const albedo = await person.find('planet.ground_albedo');
-      await albedo.locator('.form-choice').selectOption('Curve');
-      const node = albedo.locator('.node').nth(1);
-      await node.waitFor();
-      await node.scrollIntoViewIfNeeded();
-      const box = await node.boundingBox();
-      const place = await albedo.locator('.spectrum').boundingBox();
-      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-      await person.press(x, y);
-      await person.move(x + 10, place.y + place.height * 0.5, 6);
-      await person.lift();
-      const { wavelengths_nm: wavelengths, values } = (await person.scene()).planet.ground_albedo;
-      assert.ok(wavelengths[1] > 552 && wavelengths[1] < 600, String(wavelengths));
-      assert.ok(values[1] > 0.3 && values[1] < 0.7, String(values));
-      assert.deepEqual([values[0], values[2]], [1, 1]);
-      await albedo.locator('.node').nth(1).focus();
-      await page.keyboard.press('ArrowDown');
-      assert.ok((await person.scene()).planet.ground_albedo.values[1] < values[1]);
-      await albedo.getByRole('button', { name: 'Add a node' }).click();
-      assert.equal((await person.scene()).planet.ground_albedo.values.length, 4);
-      await person.rest();
-      assert.equal(await page.locator('#status').textContent(), '');
-      await person.photograph('curve');
-    });
+visit('a spectrum is edited as a curve of nodes', async (person, page) => {
+  const albedo = await person.find('planet.ground_albedo');
+  await albedo.locator('.form-choice').selectOption('Curve');
+  const node = albedo.locator('.node').nth(1);
+  await node.waitFor();
+  await node.scrollIntoViewIfNeeded();
+  const box = await node.boundingBox();
+  const place = await albedo.locator('.spectrum').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await person.press(x, y);
+  await person.move(x + 10, place.y + place.height * 0.5, 6);
+  await person.lift();
+  const { wavelengths_nm: wavelengths, values } = (await person.scene()).planet.ground_albedo;
+  assert.ok(wavelengths[1] > 552 && wavelengths[1] < 600, String(wavelengths));
+  assert.ok(values[1] > 0.3 && values[1] < 0.7, String(values));
+  assert.deepEqual([values[0], values[2]], [1, 1]);
+  await albedo.locator('.node').nth(1).focus();
+  await page.keyboard.press('ArrowDown');
+  assert.ok((await person.scene()).planet.ground_albedo.values[1] < values[1]);
+  await albedo.getByRole('button', { name: 'Add a node' }).click();
+  assert.equal((await person.scene()).planet.ground_albedo.values.length, 4);
+  await person.rest();
+  assert.equal(await page.locator('#status').textContent(), '');
+  await person.photograph('curve');
+});
 
-    visit(size, 'a place and a time set the sun; the strip shows the day from dawn to dusk',
-      async (person, page) => {
-        await page.locator('[data-group=day] summary').click();
-        await page.locator('.strip canvas[data-slices="18"]').waitFor();
-        const colours = await page.locator('.strip canvas').evaluate((canvas) => [0.02, 0.5].map((share) =>
-          [...canvas.getContext('2d').getImageData(share * canvas.width, 10, 1, 1).data].join()));
-        assert.notEqual(colours[0], colours[1], 'dawn is not noon');
-        assert.match(await page.locator('.strip-marks').innerText(), /sunrise \d\d:\d\d.*highest.*sunset/s);
-        const first = await person.look();
-        await page.getByLabel('Place').selectOption('Cape Town');
-        const date = page.getByLabel('Date');
-        await date.fill('2026-12-21');
-        await date.dispatchEvent('change');
-        await person.rest();
-        const { sun } = await person.scene();
-        assert.equal(sun.place.latitude_deg, -33.92);
-        assert.match(sun.place.time, /^2026-12-21T12:00:00\+01:00$/);
-        assert.notEqual(await person.look(), first);
-        const slider = page.getByLabel('Time of day');
-        await page.locator('.strip').scrollIntoViewIfNeeded();
-        const strip = await slider.boundingBox();
-        await person.press(strip.x + 0.5 * strip.width, strip.y + 40);
-        await person.move(strip.x + 0.75 * strip.width, strip.y + 40, 5);
-        await person.lift();
-        assert.match((await person.scene()).sun.place.time, /^2026-12-21T1[5-7]:/);
-        await slider.focus();
-        await page.keyboard.press('Home');
-        await person.rest();
-        assert.match((await person.scene()).sun.place.time, /^2026-12-21T0[3-4]:/);
-        await page.locator('.strip').scrollIntoViewIfNeeded();
-        await person.photograph('day');
-      });
-
-    visit(size, 'a time-lapse plays in any page, in an <img>', async (person, page) => {
-      const link = 'preset=earth&image.width=64&image.height=36&image.exposure_ev=0';
-      const address = (query) => String(new URL(`/v1/${query}`, page.url()));
-      const elsewhere = await person.context.newPage();
-      const show = (query) => elsewhere.setContent(`<img src="${address(query)}">`);
-      const look = async () => (await elsewhere.screenshot()).toString('base64');
-      await show(`render?${link}&sun.elevation_deg=-2`);
-      const last = await look();
-      await show(`stream?${link}&sun.elevation_deg=30&frames=60&to.sun.elevation_deg=-2`);
-      const seen = new Set();
-      for (const ends = Date.now() + 60000; !seen.has(last); seen.add(await look())) {
-        assert.ok(Date.now() < ends, 'the last frame comes');
-      }
-      assert.ok(seen.size > 5, `${seen.size} frames were seen`);
-    });
-
-    visit(size, 'the day plays as a time-lapse', async (person, page) => {
-      await page.locator('[data-group=day] summary').click();
-      await page.locator('.strip canvas[data-slices="18"]').waitFor();
-      const seen = new Set();
-      await page.getByRole('button', { name: 'Play the day' }).click();
-      await page.getByRole('button', { name: 'Stop' }).waitFor();
-      for (const ends = Date.now() + 60000; seen.size < 4;) {
-        assert.ok(Date.now() < ends, 'the day goes on');
-        seen.add(await page.locator('.strip-now').innerText());
-      }
-      await page.getByRole('button', { name: 'Stop' }).click();
-      await person.rest();
-      const { time } = (await person.scene()).sun.place;
-      assert.ok((await page.locator('.strip-now').innerText()).startsWith(time.slice(11, 16)));
-      assert.equal(await page.locator('#status').textContent(), '');
-    });
+visit('a place and a time set the sun; the strip shows the day from dawn to dusk',
+  async (person, page) => {
+    await page.locator('[data-group=day] summary').click();
+    await page.locator('.strip canvas[data-slices="18"]').waitFor();
+    const colours = await page.locator('.strip canvas').evaluate((canvas) => [0.02, 0.5].map((share) =>
+      [...canvas.getContext('2d').getImageData(share * canvas.width, 10, 1, 1).data].join()));
+    assert.notEqual(colours[0], colours[1], 'dawn is not noon');
+    assert.match(await page.locator('.strip-marks').innerText(), /sunrise \d\d:\d\d.*highest.*sunset/s);
+    const first = await person.look();
+    await page.getByLabel('Place').selectOption('Cape Town');
+    const date = page.getByLabel('Date');
+    await date.fill('2026-12-21');
+    await date.dispatchEvent('change');
+    await person.rest();
+    const { sun } = await person.scene();
+    assert.equal(sun.place.latitude_deg, -33.92);
+    assert.match(sun.place.time, /^2026-12-21T12:00:00\+01:00$/);
+    assert.notEqual(await person.look(), first);
+    const slider = page.getByLabel('Time of day');
+    await page.locator('.strip').scrollIntoViewIfNeeded();
+    const strip = await slider.boundingBox();
+    await person.press(strip.x + 0.5 * strip.width, strip.y + 40);
+    await person.move(strip.x + 0.75 * strip.width, strip.y + 40, 5);
+    await person.lift();
+    assert.match((await person.scene()).sun.place.time, /^2026-12-21T1[5-7]:/);
+    await slider.focus();
+    await page.keyboard.press('Home');
+    await person.rest();
+    assert.match((await person.scene()).sun.place.time, /^2026-12-21T0[3-4]:/);
+    await page.locator('.strip').scrollIntoViewIfNeeded();
+    await person.photograph('day');
   });
-}
+
+visit('a time-lapse plays in any page, in an <img>', async (person, page) => {
+  const link = 'preset=earth&image.width=64&image.height=36&image.exposure_ev=0';
+  const address = (query) => String(new URL(`/v1/${query}`, page.url()));
+  const elsewhere = await person.context.newPage();
+  const show = (query) => elsewhere.setContent(`<img src="${address(query)}">`);
+  const look = async () => (await elsewhere.screenshot()).toString('base64');
+  await show(`render?${link}&sun.elevation_deg=-2`);
+  const last = await look();
+  await show(`stream?${link}&sun.elevation_deg=30&frames=60&to.sun.elevation_deg=-2`);
+  const seen = new Set();
+  await person.until(async () => seen.add(await look()).has(last), 'the last frame comes');
+  assert.ok(seen.size > 5, `${seen.size} frames were seen`);
+});
+
+visit('the day plays as a time-lapse', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  const moments = new Set();
+  const skies = new Set();
+  await page.getByRole('button', { name: 'Play the day' }).click();
+  await page.getByRole('button', { name: 'Stop' }).waitFor();
+  await person.until(async () => {
+    moments.add(await page.locator('.strip-now').innerText());
+    skies.add(await person.look());
+    return moments.size >= 4 && skies.size >= 3;
+  }, 'the day goes on');
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await person.rest();
+  assert.ok(Number(await page.getByLabel('Time of day').inputValue()) < 950, 'the day was not over');
+  const { time } = (await person.scene()).sun.place;
+  assert.ok((await page.locator('.strip-now').innerText()).startsWith(time.slice(11, 16)));
+  assert.equal(await page.locator('#status').textContent(), '');
+});

@@ -1,14 +1,12 @@
 // Two skies against each other, what each part is worth, speed against accuracy, a picture of one's own.
 
 import assert from 'node:assert/strict';
-import { describe } from 'node:test';
 
 import { exrFile } from './exr_file.js';
-import { SIZES } from './person.js';
 import { visits } from './visits.js';
 
 const visit = visits();
-const FIXED = '#preset=earth&image.exposure_ev=0.5&spectrum.wavelengths_nm=[680,550,440]&method.name=raymarch';
+const FIXED = '#preset=earth&image.exposure_ev=0.5&spectrum.wavelengths_nm=[680,550,440]&method.name=hillaire';
 const LEFT = { x: 0.3, y: 0.3 };
 const RIGHT = { x: 0.62, y: 0.3 };
 
@@ -31,169 +29,164 @@ async function drop(page, name, bytes) {
   assert.equal(await page.evaluate(() => window.curtainSeen), true);
 }
 
-for (const size of Object.keys(SIZES)) {
-  describe(size, () => {
-    visit(size, 'a wipe shows the same sky by another method', async (person, page) => {
-      await person.tab('Compare');
-      const before = [await person.patch(LEFT), await person.patch(RIGHT)];
-      await page.getByLabel('Against').selectOption('nishita');
-      await figures(page);
-      const [left, right] = [await person.patch(LEFT), await person.patch(RIGHT)];
-      assert.equal(left, before[0]);
-      assert.notEqual(right, before[1]);
-      await person.photograph('wipe');
-      const box = await page.locator('#wipe').boundingBox();
-      const picture = await page.locator('#picture').boundingBox();
-      const y = picture.y + picture.height * 0.6;
-      await person.press(box.x + box.width / 2, y);
-      await person.move(picture.x + picture.width * 0.8, y, 5);
-      await person.lift();
-      assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '80');
-      assert.equal(await person.patch(RIGHT), before[1], 'the line has passed it');
-      await page.locator('#wipe').focus();
-      await page.keyboard.press('Home');
-      assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '0');
-      assert.notEqual(await person.patch(LEFT), before[0]);
-    }, { hash: FIXED });
+visit('a wipe shows the same sky by another method', async (person, page) => {
+  await person.tab('Compare');
+  const before = [await person.patch(LEFT), await person.patch(RIGHT)];
+  await page.getByLabel('Against').selectOption('nishita');
+  await figures(page);
+  const [left, right] = [await person.patch(LEFT), await person.patch(RIGHT)];
+  assert.equal(left, before[0]);
+  assert.notEqual(right, before[1]);
+  await person.photograph('wipe');
+  const box = await page.locator('#wipe').boundingBox();
+  const picture = await page.locator('#picture').boundingBox();
+  const y = picture.y + picture.height * 0.6;
+  await person.press(box.x + box.width / 2, y);
+  await person.move(picture.x + picture.width * 0.8, y, 5);
+  await person.lift();
+  assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '80');
+  assert.equal(await person.patch(RIGHT), before[1], 'the line has passed it');
+  await page.locator('#wipe').focus();
+  await page.keyboard.press('Home');
+  assert.equal(await page.locator('#wipe').getAttribute('aria-valuenow'), '0');
+  assert.notEqual(await person.patch(LEFT), before[0]);
+}, { hash: FIXED });
 
-    visit(size, 'a pinned sky is wiped against what was changed', async (person, page) => {
-      await person.tab('Compare');
-      const before = [await person.patch(LEFT), await person.patch(RIGHT)];
-      await page.getByRole('button', { name: 'Pin this sky' }).click();
-      await person.tab('Adjust');
-      await person.type('sun.elevation_deg', '8');
-      await person.rest();
-      await person.tab('Compare');
-      assert.ok((await figures(page)) > 1);
-      assert.notEqual(await person.patch(LEFT), before[0]);
-      assert.equal(await person.patch(RIGHT), before[1]);
-      await page.getByLabel('Against').selectOption('');
-      assert.notEqual(await person.patch(RIGHT), before[1]);
-    }, { hash: FIXED });
+visit('a pinned sky is wiped against what was changed', async (person, page) => {
+  await person.tab('Compare');
+  const before = [await person.patch(LEFT), await person.patch(RIGHT)];
+  await page.getByRole('button', { name: 'Pin this sky' }).click();
+  await person.tab('Adjust');
+  await person.type('sun.elevation_deg', '8');
+  await person.rest();
+  await person.tab('Compare');
+  assert.ok((await figures(page)) > 1);
+  assert.notEqual(await person.patch(LEFT), before[0]);
+  assert.equal(await person.patch(RIGHT), before[1]);
+  await page.getByLabel('Against').selectOption('');
+  assert.notEqual(await person.patch(RIGHT), before[1]);
+}, { hash: FIXED });
 
-    visit(size, 'the error picture shows where they differ, with a scale', async (person, page) => {
-      await person.tab('Compare');
-      await page.getByLabel('Against').selectOption('nishita');
-      await page.locator('#against-block').getByRole('button', { name: 'Error picture' }).click();
-      await page.locator('.error-scale').waitFor();
-      assert.ok(await page.locator('#overlay').isVisible());
-      const [r, , b] = await page.locator('#overlay').evaluate((canvas) =>
-        [...canvas.getContext('2d').getImageData(canvas.width / 2, canvas.height / 3, 1, 1).data]);
-      assert.ok(r > b, 'all orders are brighter than one: red');
-      assert.ok((await figures(page)) > 5);
-      await person.photograph('error');
-      await person.drag({ x: 0.2, y: 0.7 }, { x: 0.4, y: 0.7 });
-      assert.ok(!(await page.locator('#overlay').isVisible()), 'an old error is not shown over a new sky');
-    }, { hash: FIXED.replace('raymarch', 'moments') });
+visit('the error picture shows where they differ, with a scale', async (person, page) => {
+  await person.tab('Compare');
+  await page.getByLabel('Against').selectOption('nishita');
+  await page.locator('#against-block').getByRole('button', { name: 'Error picture' }).click();
+  await page.locator('.error-scale').waitFor();
+  assert.ok(await page.locator('#overlay').isVisible());
+  const [r, , b] = await page.locator('#overlay').evaluate((canvas) =>
+    [...canvas.getContext('2d').getImageData(canvas.width / 2, canvas.height / 3, 1, 1).data]);
+  assert.ok(r > b, 'all orders are brighter than one: red');
+  assert.ok((await figures(page)) > 5);
+  await person.photograph('error');
+  await person.drag({ x: 0.2, y: 0.7 }, { x: 0.4, y: 0.7 });
+  assert.ok(!(await page.locator('#overlay').isVisible()), 'an old error is not shown over a new sky');
+}, { hash: FIXED });
 
-    visit(size, 'where the method falls short in this sky is told, and where the measurements are',
-      async (person, page) => {
-        await page.locator('#near').click();
-        const limits = page.locator('.limits');
-        assert.match(await limits.innerText(), /Moments falls short.*Late twilight is off by \d/s);
-        const count = await limits.locator('li').count();
-        assert.equal(await page.locator('#near').innerText(), `Near ${count} limits`);
-        await person.photograph('limits');
-        const [table] = await Promise.all([
-          person.context.waitForEvent('page'), limits.getByRole('link').click()]);
-        await table.waitForFunction(() => document.images[0]?.complete && document.images[0].naturalWidth);
-        assert.match(await table.title(), /Where methods fail/);
-        await table.close();
-        await person.type('sun.elevation_deg', '40');
-        await limits.waitFor({ state: 'hidden' });
-        assert.equal(await page.locator('#near').isVisible(), false);
-      }, { hash: '#preset=earth&method.name=moments&sun.elevation_deg=-10' });
+visit('where the method falls short in this sky is told, and where the measurements are',
+  async (person, page) => {
+    await page.locator('#near').click();
+    const limits = page.locator('.limits');
+    assert.match(await limits.innerText(), /Moments falls short.*Late twilight is off by \d/s);
+    const count = await limits.locator('li').count();
+    assert.equal(await page.locator('#near').innerText(), `Near ${count} limits`);
+    await person.photograph('limits');
+    const [table] = await Promise.all([
+      person.context.waitForEvent('page'), limits.getByRole('link').click()]);
+    await table.waitForFunction(() => document.images[0]?.complete && document.images[0].naturalWidth);
+    assert.match(await table.title(), /Where methods fail/);
+    await table.close();
+    await person.type('sun.elevation_deg', '40');
+    await limits.waitFor({ state: 'hidden' });
+    assert.equal(await page.locator('#near').isVisible(), false);
+  }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&method.name=moments&sun.elevation_deg=-10' });
 
-    visit(size, 'what each part is worth is told in bars, and how far the work is', async (person, page) => {
-      await person.tab('Compare');
-      await page.getByRole('button', { name: 'Explain' }).click();
-      await page.locator('#explain-block progress').evaluate((progress) => {
-        window.shares = [];
-        new MutationObserver(() => window.shares.push(progress.position)).observe(progress, { attributes: true });
-      });
-      const bars = page.locator('#explain-block .bars li');
-      await bars.first().waitFor();
-      const rows = await bars.evaluateAll((all) => all.map((row) => [
-        row.querySelector('.bar-name').textContent, Number.parseFloat(row.querySelector('.bar-text').textContent)]));
-      const names = rows.map(([name]) => name);
-      for (const name of ['Air', 'Aerosol', 'Ozone', 'The ground’s light']) assert.ok(names.includes(name), name);
-      assert.deepEqual(rows.map(([, error]) => error), rows.map(([, error]) => error).sort((a, b) => b - a));
-      const shares = await page.evaluate(() => window.shares);
-      assert.ok(shares.length && shares[0] > 0, 'the work tells how far it is');
-      assert.deepEqual(shares, [...shares].sort((a, b) => a - b));
-      await page.locator('#explain-block').scrollIntoViewIfNeeded();
-      await person.photograph('explain');
-    }, { hash: FIXED });
-
-    visit(size, 'speed and accuracy are charted while they are measured; a point is taken',
-      async (person, page) => {
-        await person.tab('Compare');
-        await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).click();
-        const points = page.locator('#chart-block .point[data-point]');
-        await page.waitForFunction(() =>
-          new Set([...document.querySelectorAll('.point[data-point]')].map((dot) => dot.dataset.method)).size >= 4);
-        assert.match(await page.locator('#chart-block [role=status]').innerText(),
-                     /of up to \d+ measured… Measured on small frames, \d+ × \d+/);
-        assert.ok((await page.locator('#chart-block .front').getAttribute('d')).length > 4);
-        const best = await page.locator('.point.best').evaluateAll((dots) =>
-          dots.map((dot) => dot.getAttribute('aria-label')));
-        assert.ok(best.length >= 1);
-        await page.getByRole('button', { name: 'Stop' }).click();
-        await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).waitFor();
-        const count = await points.count();
-        const hillaire = page.locator('.point[data-method=hillaire]').first();
-        if (size === 'phone') {
-          await hillaire.tap();
-        } else {
-          await hillaire.focus();
-          await page.keyboard.press('Enter');
-        }
-        await person.rest();
-        assert.equal((await person.scene()).method.name, 'hillaire');
-        assert.match(await page.locator('[data-fact=Method]').innerText(), /Hillaire/);
-        assert.equal(await page.locator('.point[aria-pressed=true]').getAttribute('data-method'), 'hillaire');
-        assert.equal(await points.count(), count, 'nothing is measured after Stop');
-        await page.locator('#chart-block').scrollIntoViewIfNeeded();
-        await person.photograph('chart');
-      }, { hash: '#preset=earth&method.scattering_orders=1' });
-
-    visit(size, 'an EXR that is dropped is judged against the sky', async (person, page) => {
-      const scene = { preset: 'earth', spectrum: { wavelengths_nm: [680, 550, 440] }, camera: { fov_deg: 40 } };
-      const answer = await fetch(new URL('/v1/render', page.url()), { method: 'POST', body: JSON.stringify({
-        ...scene, method: { name: 'nishita' }, image: { width: 40, height: 24, format: 'exr' } }) });
-      await drop(page, 'mine.exr', Buffer.from(await answer.arrayBuffer()));
-      const error = page.locator('#own-block [data-figure=error] dd');
-      await error.waitFor();
-      assert.ok(Number.parseFloat(await error.innerText()) > 5, 'one order is not all');
-      await page.locator('#own-block').getByRole('button', { name: 'Error picture' }).click();
-      await page.locator('#own-block .error-scale').waitFor();
-      assert.ok(await page.locator('#overlay').isVisible());
-      await person.photograph('judged');
-      await page.getByRole('button', { name: 'Back to the sky' }).click();
-      assert.ok(!(await page.locator('#overlay').isVisible()));
-    }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&camera.fov_deg=40' });
-
-    visit(size, 'a picture with distances gets the air of the sky', async (person, page) => {
-      const land = exrFile(32, 20, { R: 0, G: 0, B: 0, Z: (column) => (column < 16 ? 0.1 : 60) });
-      await drop(page, 'land.exr', land);
-      await page.waitForFunction(() => !document.getElementById('overlay').hidden);
-      const [left, right] = await page.locator('#overlay').evaluate((canvas) => [4, 28].map((x) =>
-        [...canvas.getContext('2d').getImageData(x, 10, 1, 1).data].slice(0, 3)));
-      assert.ok(right[2] > left[2] + 30, `air before what is dark and far: ${left} ${right}`);
-      await person.photograph('composite');
-    }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&image.exposure_ev=1&sun.azimuth_deg=180' });
-
-    visit(size, 'an EXR is chosen where none can be dropped', async (person, page) => {
-      await person.tab('Compare');
-      await page.getByLabel('Choose an EXR').setInputFiles({
-        name: 'grey.exr', mimeType: 'image/x-exr', buffer: exrFile(24, 16, { R: 0.1, G: 0.1, B: 0.1 }) });
-      await page.locator('#own-block [data-figure=error]').waitFor();
-      assert.match(await page.locator('#own-block').innerText(), /grey\.exr, 24 × 16/);
-    }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
-
-    visit(size, 'what is no EXR is said in words', async (person, page) => {
-      await drop(page, 'cat.png', Buffer.from('no picture'));
-      await page.waitForFunction(() => /not an EXR/.test(document.getElementById('own-block').textContent));
-    });
+visit('what each part is worth is told in bars, and how far the work is', async (person, page) => {
+  await person.tab('Compare');
+  await page.getByRole('button', { name: 'Explain' }).click();
+  await page.locator('#explain-block progress').evaluate((progress) => {
+    window.shares = [];
+    new MutationObserver(() => window.shares.push(progress.position)).observe(progress, { attributes: true });
   });
-}
+  const bars = page.locator('#explain-block .bars li');
+  await bars.first().waitFor();
+  const rows = await bars.evaluateAll((all) => all.map((row) => [
+    row.querySelector('.bar-name').textContent, Number.parseFloat(row.querySelector('.bar-text').textContent)]));
+  const names = rows.map(([name]) => name);
+  for (const name of ['Air', 'Aerosol', 'Ozone', 'The ground’s light']) assert.ok(names.includes(name), name);
+  assert.deepEqual(rows.map(([, error]) => error), rows.map(([, error]) => error).sort((a, b) => b - a));
+  const shares = await page.evaluate(() => window.shares);
+  assert.ok(shares.length && shares[0] > 0, 'the work tells how far it is');
+  assert.deepEqual(shares, [...shares].sort((a, b) => a - b));
+  await page.locator('#explain-block').scrollIntoViewIfNeeded();
+  await person.photograph('explain');
+}, { hash: FIXED });
+
+visit('speed and accuracy are charted while they are measured; a point is taken',
+  async (person, page) => {
+    await person.tab('Compare');
+    await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).click();
+    const points = page.locator('#chart-block .point[data-point]');
+    await page.waitForFunction(() =>
+      new Set([...document.querySelectorAll('.point[data-point]')].map((dot) => dot.dataset.method)).size >= 4);
+    assert.match(await page.locator('#chart-block [role=status]').innerText(),
+                 /of up to \d+ measured… Measured on small frames, \d+ × \d+/);
+    assert.ok((await page.locator('#chart-block .front').getAttribute('d')).length > 4);
+    const best = await page.locator('.point.best').evaluateAll((dots) =>
+      dots.map((dot) => dot.getAttribute('aria-label')));
+    assert.ok(best.length >= 1);
+    await page.getByRole('button', { name: 'Stop' }).click();
+    await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).waitFor();
+    const count = await points.count();
+    await page.locator('.point[data-method=raymarch]').first().focus();
+    await page.keyboard.press('Enter');
+    assert.equal((await person.scene()).method.name, 'raymarch');
+    const hillaire = page.locator('.point[data-method=hillaire]').first();
+    if (person.size === 'phone') await hillaire.tap();
+    else await hillaire.click();
+    await person.rest();
+    assert.equal((await person.scene()).method.name, 'hillaire');
+    assert.match(await page.locator('[data-fact=Method]').innerText(), /Hillaire/);
+    assert.equal(await page.locator('.point[aria-pressed=true]').getAttribute('data-method'), 'hillaire');
+    assert.equal(await points.count(), count, 'nothing is measured after Stop');
+    await page.locator('#chart-block').scrollIntoViewIfNeeded();
+    await person.photograph('chart');
+  }, { hash: '#preset=earth&method.scattering_orders=1' });
+
+visit('an EXR that is dropped is judged against the sky', async (person, page) => {
+  const scene = { preset: 'earth', spectrum: { wavelengths_nm: [680, 550, 440] }, camera: { fov_deg: 40 } };
+  const answer = await fetch(new URL('/v1/render', page.url()), { method: 'POST', body: JSON.stringify({
+    ...scene, method: { name: 'nishita' }, image: { width: 40, height: 24, format: 'exr' } }) });
+  await drop(page, 'mine.exr', Buffer.from(await answer.arrayBuffer()));
+  const error = page.locator('#own-block [data-figure=error] dd');
+  await error.waitFor();
+  assert.ok(Number.parseFloat(await error.innerText()) > 5, 'one order is not all');
+  await page.locator('#own-block').getByRole('button', { name: 'Error picture' }).click();
+  await page.locator('#own-block .error-scale').waitFor();
+  assert.ok(await page.locator('#overlay').isVisible());
+  await person.photograph('judged');
+  await page.getByRole('button', { name: 'Back to the sky' }).click();
+  assert.ok(!(await page.locator('#overlay').isVisible()));
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&camera.fov_deg=40' });
+
+visit('a picture with distances gets the air of the sky', async (person, page) => {
+  const land = exrFile(32, 20, { R: 0, G: 0, B: 0, Z: (column) => (column < 16 ? 0.1 : 60) });
+  await drop(page, 'land.exr', land);
+  await page.waitForFunction(() => !document.getElementById('overlay').hidden);
+  const [left, right] = await page.locator('#overlay').evaluate((canvas) => [4, 28].map((x) =>
+    [...canvas.getContext('2d').getImageData(x, 10, 1, 1).data].slice(0, 3)));
+  assert.ok(right[2] > left[2] + 30, `air before what is dark and far: ${left} ${right}`);
+  await person.photograph('composite');
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&image.exposure_ev=1&sun.azimuth_deg=180' });
+
+visit('an EXR is chosen where none can be dropped', async (person, page) => {
+  await person.tab('Compare');
+  await page.getByLabel('Choose an EXR').setInputFiles({
+    name: 'grey.exr', mimeType: 'image/x-exr', buffer: exrFile(24, 16, { R: 0.1, G: 0.1, B: 0.1 }) });
+  await page.locator('#own-block [data-figure=error]').waitFor();
+  assert.match(await page.locator('#own-block').innerText(), /grey\.exr, 24 × 16/);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+visit('what is no EXR is said in words', async (person, page) => {
+  await drop(page, 'cat.png', Buffer.from('no picture'));
+  await page.waitForFunction(() => /not an EXR/.test(document.getElementById('own-block').textContent));
+});

@@ -5,10 +5,8 @@ import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
-import { describe } from 'node:test';
 import { promisify } from 'node:util';
 
-import { SIZES } from './person.js';
 import { visits } from './visits.js';
 
 const run = promisify(execFile);
@@ -16,369 +14,404 @@ const PNG = '89504e47';
 const EXR = '762f3101';
 const startOf = (bytes) => bytes.subarray(0, 4).toString('hex');
 
+const FEW = '&spectrum.wavelengths_nm=[680,550,440]';  // which is quick
 const visit = visits();
 
-for (const size of Object.keys(SIZES)) {
-  describe(size, () => {
-    visit(size, 'the picture fills the window and the controls fold away', async (person, page) => {
-      await person.photograph('adjust');
-      await page.getByRole('button', { name: 'Fold the controls away' }).click();
-      await person.rest();
-      assert.equal(await page.locator('#panel').isVisible(), false);
-      const { width, height } = SIZES[size].viewport;
-      assert.deepEqual(await page.locator('#picture').boundingBox(), { x: 0, y: 0, width, height });
-      await person.photograph('folded');
-      await page.getByRole('button', { name: 'Show the controls' }).click();
-      assert.equal(await page.locator('#panel').isVisible(), true);
-    });
-
-    visit(size, 'every number of the schema has a slider, in a group', async (person, page) => {
-      const schema = await (await fetch(`${new URL(page.url()).origin}/v1/schema`)).json();
-      for (const [section, members] of Object.entries(schema.properties)) {
-        for (const [name, member] of Object.entries(members.properties ?? {})) {
-          if (!member['x-slider'] || /^(width|height|.*_samples|seed)$/.test(name)) continue;
-          if (member['x-methods']) continue;  // drawn when one of these methods is chosen
-          if (member.type !== 'number' && member.type !== 'integer') continue;
-          const control = person.control(`${section}.${name}`);
-          assert.equal(await control.locator('input[type=range]').count(), 1, `${section}.${name}`);
-          assert.ok(await control.locator('xpath=ancestor::details[@data-group]').count(), name);
-        }
-      }
-      assert.deepEqual(await page.locator('.fold h2').allInnerTexts(),
-                       ['Sun', 'Time and place', 'Air, haze and ozone', 'Planet', 'Camera', 'Light', 'Picture',
-                        'Method']);
-      const unit = await person.control('sun.elevation_deg').locator('.unit').textContent();
-      assert.equal(unit, '°');
-    });
-
-    visit(size, 'a number can be typed, and given back', async (person, page) => {
-      const first = await person.look();
-      await person.type('sun.elevation_deg', '4');
-      await person.rest();
-      assert.equal((await person.scene()).sun.elevation_deg, 4);
-      assert.notEqual(await person.look(), first);
-      const control = person.control('sun.elevation_deg');
-      await control.getByRole('button', { name: /Reset/ }).click();
-      await person.rest();
-      assert.equal((await person.scene()).sun, undefined);
-      assert.equal(await person.look(), first);
-      assert.equal(await control.getByRole('button', { name: /Reset/ }).count(), 0);
-    });
-
-    visit(size, 'a logarithmic slider moves by factors', async (person, page) => {
-      const slider = (await person.find('camera.altitude_km')).locator('input[type=range]');
-      const altitudeAt = async (share) => {
-        await slider.evaluate((element, at) => {
-          element.value = at * element.max;
-          element.dispatchEvent(new Event('input'));
-        }, share);
-        return (await person.scene()).camera.altitude_km;
-      };
-      const [low, middle, high] = [await altitudeAt(0.4), await altitudeAt(0.6), await altitudeAt(0.8)];
-      assert.ok(Math.abs(Math.log(high / middle) / Math.log(middle / low) - 1) < 0.05);
-    });
-
-    visit(size, 'help says in words what a control is', async (person, page) => {
-      const control = await person.find('sun.elevation_deg');
-      await control.hover();
-      await control.getByRole('button', { name: /What is/ }).click();
-      assert.ok((await control.locator('.help').innerText()).length > 20);
-    });
-
-    visit(size, 'constituents have cards; they are switched off, added and removed',
-      async (person, page) => {
-        const card = page.locator('.card[data-name=air]');
-        await card.locator('summary').scrollIntoViewIfNeeded();
-        await card.locator('summary .name').click();
-        assert.ok((await card.locator('input[type=range]').count()) >= 2);
-        await person.photograph('card');
-        const first = await person.look();
-        await card.getByRole('switch', { name: 'Air on' }).click();
-        assert.equal((await person.scene()).atmosphere.constituents.air, null);
-        await person.rest();
-        assert.notEqual(await person.look(), first);
-        await page.locator('.card[data-name=air]').getByRole('switch', { name: 'Air on' }).click();
-        await person.rest();
-        assert.equal(await person.look(), first);
-        await page.getByRole('button', { name: 'Dust', exact: true }).click();
-        await page.locator('.card[data-name=dust]').waitFor();
-        await person.rest();
-        assert.equal((await person.scene()).atmosphere.constituents.dust.type, 'particles');
-        assert.equal(await page.locator('#status').textContent(), '');
-        await page.locator('.card[data-name=dust] summary .name').click();
-        await page.getByRole('button', { name: 'Remove Dust' }).click();
-        assert.equal((await person.scene()).atmosphere, undefined);
-      });
-
-    visit(size, 'presets are thumbnails that the daemon has rendered', async (person, page) => {
-      await person.tab('Skies');
-      await page.waitForFunction(() => document.querySelectorAll('.preset img.there').length >= 3);
-      await page.waitForTimeout(500);
-      await person.photograph('skies');
-      const image = page.locator('.preset img.there').first();
-      assert.deepEqual(await image.evaluate((one) => [one.naturalWidth, one.naturalHeight]), [160, 90]);
-      await page.locator('.preset[data-preset=mars]').click();
-      await person.rest();
-      assert.equal(person.hash(), '#preset=mars');
-      assert.equal(await page.locator('.preset[aria-pressed=true]').getAttribute('data-preset'), 'mars');
-      await person.photograph('mars');
-    });
-
-    visit(size, 'frames follow the hand, small, and sharpen when it rests', async (person, page) => {
-      const seconds = 5;
-      const box = await page.locator('#picture').boundingBox();
-      const before = (await person.requests()).started;
-      const y = box.y + box.height * 0.7;
-      await person.press(box.x + 60, y);
-      const ends = Date.now() + 1000 * seconds;
-      let small = Infinity;
-      for (let i = 0; Date.now() < ends; ++i) {
-        await person.move(box.x + 60 + 200 * Math.abs(Math.sin(i / 40)), y);
-        await page.waitForTimeout(12);
-        small = Math.min(small, await page.locator('#picture').evaluate((c) => c.width));
-      }
-      await person.lift();
-      const { started, most, failed } = await person.requests();
-      assert.equal(most, 1, 'at most one request is under way');
-      assert.equal(failed, 0);
-      // How many is the machine's affair: that the picture goes on while the hand does is the page's.
-      assert.ok(started - before >= 3, `${started - before} frames in ${seconds} s`);
-      assert.ok(small < box.width, 'frames are smaller while the hand moves');
-      await person.rest();
-      assert.equal((await person.requests()).flying, 0);
-      const quiet = (await person.requests()).started;
-      await page.waitForTimeout(500);
-      assert.equal((await person.requests()).started, quiet, 'a resting page asks for nothing');
-    });
-
-    visit(size, 'the frame says its speed, method, options, error and exposure', async (person, page) => {
-      const said = { Render: /^Render [\d.]+ ms$/, Method: /^Method Raymarch$/, Options: /^Options view nodes 7$/,
-                     Error: /^Error ≤ [\d.]+ %/, Exposure: /^Exposure [+−][\d.]+ EV$/ };
-      for (const [fact, text] of Object.entries(said)) {
-        assert.match(await page.locator(`[data-fact=${fact}]`).innerText(), text);
-      }
-      await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
-      await page.locator('[data-fact=Frames]').waitFor();
-      assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
-    }, { hash: '#preset=earth&method.name=raymarch&method.view_nodes=7' });
-
-    visit(size, 'dragging looks around', async (person, page) => {
-      await person.drag({ x: 0.2, y: 0.7 }, { x: 0.5, y: 0.8 });
-      const looked = (await person.scene()).camera;
-      assert.ok(looked.heading_deg < -5, `heading ${looked.heading_deg}`);
-      assert.ok(looked.pitch_deg > 11, `pitch ${looked.pitch_deg}`);
-    });
-
-    visit(size, 'one flies from the ground to space', async (person, page) => {
-      const altitude = async () => (await person.scene()).camera.altitude_km;
-      const ground = await person.look();
-      if (size === 'phone') {
-        const slider = (await person.find('camera.altitude_km')).locator('input[type=range]');
-        const { x, y, width, height } = await slider.boundingBox();
-        await person.press(x + 0.3 * width, y + height / 2);
-        await person.move(x + 0.85 * width, y + height / 2, 20);
-        await person.lift();
-      } else {
-        await page.locator('#picture').focus();
-        for (let i = 0; i < 90; ++i) await page.keyboard.press('w');
-      }
-      assert.ok((await altitude()) > 400, `${await altitude()} km`);
-      await person.rest();
-      assert.notEqual(await person.look(), ground);
-      await person.photograph('space');
-    });
-
-    visit(size, 'the sun can be dragged', async (person, page) => {
-      // Straight ahead at 10 degrees, where the camera looks: the middle of the picture.
-      await person.drag({ x: 0.5, y: 0.5 }, { x: 0.6, y: 0.4 });
-      const { sun, camera } = await person.scene();
-      assert.equal(camera, undefined);
-      assert.ok(sun.elevation_deg > 12 && sun.elevation_deg < 20, `elevation ${sun.elevation_deg}`);
-      assert.ok(sun.azimuth_deg > 2, `azimuth ${sun.azimuth_deg}`);
-    }, { hash: '#preset=earth&sun.elevation_deg=10&sun.azimuth_deg=0' });
-
-    visit(size, 'a link is the scene, and back goes back', async (person, page) => {
-      assert.equal((await person.scene()).sun.elevation_deg, 3);
-      await person.type('sun.elevation_deg', '12');
-      await person.rest();
-      assert.equal(person.hash(), '#preset=mars&sun.elevation_deg=12');
-      const later = await person.look();
-      await page.goBack();
-      await person.rest();
-      assert.equal((await person.scene()).sun.elevation_deg, 3);
-      await page.goForward();
-      await person.rest();
-      assert.equal((await person.scene()).sun.elevation_deg, 12);
-      assert.equal(await person.look(), later);
-    }, { hash: '#preset=mars&sun.elevation_deg=3' });
-
-    visit(size, 'undo and redo', async (person, page) => {
-      await person.type('sun.elevation_deg', '12');
-      await person.rest();
-      await page.getByRole('button', { name: 'Undo' }).click();
-      assert.equal((await person.scene()).sun, undefined);
-      await page.getByRole('button', { name: 'Redo' }).click();
-      assert.equal((await person.scene()).sun.elevation_deg, 12);
-      await page.locator('#picture').focus();
-      await page.keyboard.press('Control+z');
-      assert.equal((await person.scene()).sun, undefined);
-      await page.keyboard.press('Control+Shift+Z');
-      assert.equal((await person.scene()).sun.elevation_deg, 12);
-    });
-
-    visit(size, 'JSON, link, curl and Python make the same frame', async (person, page) => {
-      await person.tab('Save');
-      await person.photograph('save');
-      const copied = async (kind) => {
-        await page.getByRole('button', { name: `Copy ${kind}` }).click();
-        return page.evaluate(() => navigator.clipboard.readText());
-      };
-      const folder = await mkdtemp(path.join(os.tmpdir(), 'sky-'));
-      try {
-        assert.deepEqual(JSON.parse(await copied('JSON')),
-                         { preset: 'earth', sun: { elevation_deg: 5 }, image: { tone_map: 'aces' } });
-        assert.equal(await copied('Link'), page.url());
-        await run('bash', ['-c', await copied('curl')], { cwd: folder });
-        const byCurl = await readFile(path.join(folder, 'sky.png'));
-        assert.equal(startOf(byCurl), PNG);
-        await rm(path.join(folder, 'sky.png'));
-        await run('python3', ['-c', await copied('Python')], { cwd: folder });
-        assert.ok(byCurl.equals(await readFile(path.join(folder, 'sky.png'))));
-      } finally {
-        await rm(folder, { recursive: true });
-      }
-    }, { hash: '#preset=earth&sun.elevation_deg=5&image.tone_map=aces' });
-
-    visit(size, 'PNG and EXR are downloaded at a chosen size', async (person, page) => {
-      await person.tab('Save');
-      await page.getByLabel('Width', { exact: true }).fill('320');
-      await page.getByLabel('Height', { exact: true }).fill('100');
-      for (const [format, start] of [['png', PNG], ['exr', EXR]]) {
-        await page.getByLabel('As', { exact: true }).selectOption(format);
-        const [download] = await Promise.all([
-          page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
-        assert.equal(download.suggestedFilename(), `earth.${format}`);
-        const bytes = await readFile(await download.path());
-        assert.equal(startOf(bytes), start);
-        if (format !== 'png') continue;
-        assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [320, 100]);
-      }
-    });
-
-    visit(size, 'an EXR has its layers apart, an environment map is a whole sphere', async (person, page) => {
-      await person.tab('Save');
-      const save = async () => {
-        const [download] = await Promise.all([
-          page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
-        return readFile(await download.path());
-      };
-      await page.getByLabel('Width', { exact: true }).fill('64');
-      await page.getByLabel('As', { exact: true }).selectOption('exr');
-      await page.getByLabel('Light of the air').check();
-      await page.getByLabel('Transmittance').check();
-      const channels = (await save()).subarray(0, 600).toString('latin1');
-      for (const name of ['inscatter.R', 'transmittance.B']) assert.ok(channels.includes(name), name);
-      assert.ok(!channels.includes('ground.R'));
-      await page.getByLabel('As', { exact: true }).selectOption('sphere_hdr');
-      assert.equal(await page.getByLabel('Height', { exact: true }).inputValue(), '32');
-      const sphere = (await save()).toString('latin1');
-      assert.match(sphere, /^#\?RADIANCE/);
-      assert.match(sphere, /-Y 32 \+X 64/);
-    });
-
-    visit(size, 'a slider dragged for ten seconds leaves no request and no error behind', async (person, page) => {
-      const slider = (await person.find('sun.elevation_deg')).locator('input[type=range]');
-      const box = await slider.boundingBox();
-      const y = box.y + box.height / 2;
-      await person.press(box.x + box.width / 2, y);
-      const ends = Date.now() + 10000;
-      for (let i = 0; Date.now() < ends; ++i) {
-        await person.move(box.x + box.width * (0.5 + 0.4 * Math.sin(i / 30)), y);
-        await page.waitForTimeout(16);
-      }
-      await person.lift();
-      await person.rest();
-      const { flying, failed, most } = await person.requests();
-      assert.deepEqual({ flying, failed, most }, { flying: 0, failed: 0, most: 1 });
-    });
-
-    visit(size, 'what is not a number is refused where it was typed', async (person, page) => {
-      await person.type('sun.elevation_deg', 'high');
-      assert.match(await person.control('sun.elevation_deg').locator('.problem').innerText(), /number/);
-    });
-
-    for (const colorScheme of ['light', 'dark']) {
-      visit(size, `it is accessible in the ${colorScheme}`, async (person, page) => {
-        const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
-        await page.evaluate(axe);
-        // With as much to see as there is.
-        await page.locator('.card[data-name=air] summary .name').click();
-        await page.locator('[data-group=day] summary').click();
-        await page.locator('.strip-marks span').first().waitFor();
-        await person.tab('Compare');
-        await page.getByLabel('Against', { exact: true }).selectOption('nishita');
-        await page.locator('.figures [data-figure=error]').waitFor();
-        await page.locator('#picture').focus();
-        await page.keyboard.press('p');
-        await page.locator('#probe .plot').first().waitFor();
-        for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) {
-          await person.tab(tab);
-          const { violations } = await page.evaluate(() => window.axe.run());
-          assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map((n) => n.html)]), [], tab);
-        }
-        const { 0: red } = (await page.locator('#panel')
-          .evaluate((panel) => getComputedStyle(panel).color)).match(/\d+/);
-        assert.equal(Number(red) > 128, colorScheme === 'dark');
-        await person.tab('Adjust');
-        await person.photograph(colorScheme);
-      }, { colorScheme });
-    }
-  });
-}
-
-describe('keyboard and wheel', () => {
-  visit('desktop', 'the wheel zooms', async (person, page) => {
-    await page.mouse.move(400, 400);
-    await page.mouse.wheel(0, -300);
-    assert.ok((await person.scene()).camera.fov_deg < 55);
-  });
-
-  visit('desktop', 'keys look, climb, move the sun and show their own help', async (person, page) => {
-    await page.locator('#picture').focus();
-    for (const key of ['ArrowRight', 'ArrowUp', 'w', 'd', '+']) await page.keyboard.press(key);
-    const { camera, sun } = await person.scene();
-    assert.ok(camera.heading_deg > 0 && camera.pitch_deg > 10 && camera.altitude_km > 0.002);
-    assert.ok(camera.fov_deg < 60 && sun.elevation_deg > 30);
-    await page.keyboard.press('0');
-    assert.equal((await person.scene()).camera, undefined);
-    await page.keyboard.press('?');
-    assert.ok(await page.getByRole('dialog').isVisible());
-    await page.waitForTimeout(200);
-    await person.photograph('help');
-    await page.keyboard.press('Escape');
-    assert.ok(!(await page.getByRole('dialog').isVisible()));
-    await page.keyboard.press('c');
-    assert.equal(await page.locator('#panel').isVisible(), false);
-  });
-
-  visit('desktop', 'everything can be reached with the tabulator', async (person, page) => {
-    await page.locator('#picture').focus();
-    const reached = new Set();
-    for (let i = 0; i < 60; ++i) {
-      await page.keyboard.press('Tab');
-      reached.add(await page.evaluate(() => document.activeElement.getAttribute('aria-label') ??
-        document.activeElement.textContent.trim()));
-    }
-    for (const name of ['Help', 'Adjust', 'Elevation', 'Azimuth']) assert.ok(reached.has(name), name);
-  });
+visit('the picture fills the window and the controls fold away', async (person, page) => {
+  await person.photograph('adjust');
+  await page.getByRole('button', { name: 'Fold the controls away' }).click();
+  await person.rest();
+  assert.equal(await page.locator('#panel').isVisible(), false);
+  const { width, height } = page.viewportSize();
+  assert.deepEqual(await page.locator('#picture').boundingBox(), { x: 0, y: 0, width, height });
+  await person.photograph('folded');
+  await page.getByRole('button', { name: 'Show the controls' }).click();
+  assert.equal(await page.locator('#panel').isVisible(), true);
 });
 
-describe('touch', () => {
-  visit('phone', 'two fingers zoom', async (person) => {
+visit('every number of the schema has a slider, in a group', async (person, page) => {
+  const schema = await (await fetch(`${new URL(page.url()).origin}/v1/schema`)).json();
+  for (const [section, members] of Object.entries(schema.properties)) {
+    for (const [name, member] of Object.entries(members.properties ?? {})) {
+      if (!member['x-slider'] || /^(width|height|.*_samples|seed)$/.test(name)) continue;
+      if (member['x-methods']) continue;  // drawn when one of these methods is chosen
+      if (member.type !== 'number' && member.type !== 'integer') continue;
+      const control = person.control(`${section}.${name}`);
+      assert.equal(await control.locator('input[type=range]').count(), 1, `${section}.${name}`);
+      assert.ok(await control.locator('xpath=ancestor::details[@data-group]').count(), name);
+    }
+  }
+  assert.deepEqual(await page.locator('.fold h2').allInnerTexts(),
+                   ['Sun', 'Time and place', 'Air, haze and ozone', 'Planet', 'Camera', 'Light', 'Picture',
+                    'Method']);
+  const unit = await person.control('sun.elevation_deg').locator('.unit').textContent();
+  assert.equal(unit, '°');
+});
+
+visit('a number can be typed, and given back', async (person, page) => {
+  const first = await person.look();
+  await person.type('sun.elevation_deg', '4');
+  await person.rest();
+  assert.equal((await person.scene()).sun.elevation_deg, 4);
+  assert.notEqual(await person.look(), first);
+  const control = person.control('sun.elevation_deg');
+  await control.getByRole('button', { name: /Reset/ }).click();
+  await person.rest();
+  assert.equal((await person.scene()).sun, undefined);
+  assert.equal(await person.look(), first);
+  assert.equal(await control.getByRole('button', { name: /Reset/ }).count(), 0);
+});
+
+visit('a logarithmic slider moves by factors', async (person, page) => {
+  const slider = (await person.find('camera.altitude_km')).locator('input[type=range]');
+  const altitudeAt = async (share) => {
+    await slider.evaluate((element, at) => {
+      element.value = at * element.max;
+      element.dispatchEvent(new Event('input'));
+    }, share);
+    return (await person.scene()).camera.altitude_km;
+  };
+  const [low, middle, high] = [await altitudeAt(0.4), await altitudeAt(0.6), await altitudeAt(0.8)];
+  assert.ok(Math.abs(Math.log(high / middle) / Math.log(middle / low) - 1) < 0.05);
+});
+
+visit('help says in words what a control is', async (person, page) => {
+  const control = await person.find('sun.elevation_deg');
+  await control.hover();
+  const help = control.locator('.help');
+  assert.equal(await help.isVisible(), false);
+  await control.getByRole('button', { name: /What is/ }).click();
+  assert.ok(await help.isVisible());
+  assert.ok((await help.innerText()).length > 20);
+});
+
+visit('constituents have cards; they are switched off, added and removed',
+  async (person, page) => {
+    const card = page.locator('.card[data-name=air]');
+    await card.locator('summary').scrollIntoViewIfNeeded();
+    await card.locator('summary .name').click();
+    assert.ok((await card.locator('input[type=range]').count()) >= 2);
+    await person.photograph('card');
+    const first = await person.look();
+    await card.getByRole('switch', { name: 'Air on' }).click();
+    assert.equal((await person.scene()).atmosphere.constituents.air, null);
+    await person.rest();
+    assert.notEqual(await person.look(), first);
+    await page.locator('.card[data-name=air]').getByRole('switch', { name: 'Air on' }).click();
+    await person.rest();
+    assert.equal(await person.look(), first);
+    await page.getByRole('button', { name: 'Dust', exact: true }).click();
+    await page.locator('.card[data-name=dust]').waitFor();
+    await person.rest();
+    assert.equal((await person.scene()).atmosphere.constituents.dust.type, 'particles');
+    assert.equal(await page.locator('#status').textContent(), '');
+    await page.locator('.card[data-name=dust] summary .name').click();
+    await page.getByRole('button', { name: 'Remove Dust' }).click();
+    assert.equal((await person.scene()).atmosphere, undefined);
+  }, { hash: `#preset=earth${FEW}` });
+
+visit('presets are thumbnails that the daemon has rendered', async (person, page) => {
+  await person.tab('Skies');
+  await page.waitForFunction(() => document.querySelectorAll('.preset img.there').length >= 3);
+  await page.waitForTimeout(500);
+  await person.photograph('skies');
+  const image = page.locator('.preset img.there').first();
+  assert.deepEqual(await image.evaluate((one) => [one.naturalWidth, one.naturalHeight]), [160, 90]);
+  await page.locator('.preset[data-preset=mars]').click();
+  await person.rest();
+  assert.equal(person.hash(), '#preset=mars');
+  assert.equal(await page.locator('.preset[aria-pressed=true]').getAttribute('data-preset'), 'mars');
+  await person.photograph('mars');
+});
+
+visit('frames follow the hand, small, and sharpen when it rests', async (person, page) => {
+  const seconds = 5;
+  const box = await page.locator('#picture').boundingBox();
+  const before = (await person.requests()).started;
+  const y = box.y + box.height * 0.7;
+  await person.press(box.x + 60, y);
+  const ends = Date.now() + 1000 * seconds;
+  let small = Infinity;
+  for (let i = 0; Date.now() < ends; ++i) {
+    await person.move(box.x + 60 + 200 * Math.abs(Math.sin(i / 40)), y);
+    await page.waitForTimeout(12);
+    small = Math.min(small, await page.locator('#picture').evaluate((c) => c.width));
+  }
+  await person.lift();
+  const { started, most, failed } = await person.requests();
+  assert.equal(most, 1, 'at most one request is under way');
+  assert.equal(failed, 0);
+  // How many is the machine's affair: that the picture goes on while the hand does is the page's.
+  assert.ok(started - before >= 3, `${started - before} frames in ${seconds} s`);
+  assert.ok(small < box.width, 'frames are smaller while the hand moves');
+  await person.rest();
+  assert.equal((await person.requests()).flying, 0);
+  const quiet = (await person.requests()).started;
+  await page.waitForTimeout(500);
+  assert.equal((await person.requests()).started, quiet, 'a resting page asks for nothing');
+});
+
+visit('the frame says its speed, method, options, error and exposure', async (person, page) => {
+  const said = { Render: /^Render [\d.]+ ms$/, Method: /^Method Raymarch$/, Options: /^Options view nodes 7$/,
+                 Error: /^Error ≤ [\d.]+ %/, Exposure: /^Exposure [+−][\d.]+ EV$/ };
+  // A phone has room for all of it when the controls are folded.
+  if (person.size === 'phone') await page.getByRole('button', { name: 'Fold the controls away' }).click();
+  for (const [fact, text] of Object.entries(said)) {
+    const place = page.locator(`[data-fact=${fact}]`);
+    assert.ok(await place.isVisible(), fact);
+    assert.match(await place.innerText(), text);
+  }
+  await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
+  await page.locator('[data-fact=Frames]').waitFor();
+  assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
+}, { hash: `#preset=earth${FEW}&method.name=raymarch&method.view_nodes=7` });
+
+visit('dragging looks around', async (person, page) => {
+  await person.drag({ x: 0.2, y: 0.7 }, { x: 0.5, y: 0.8 });
+  const looked = (await person.scene()).camera;
+  assert.ok(looked.heading_deg < -5, `heading ${looked.heading_deg}`);
+  assert.ok(looked.pitch_deg > 11, `pitch ${looked.pitch_deg}`);
+});
+
+visit('one flies from the ground to space', async (person, page) => {
+  const altitude = async () => (await person.scene()).camera.altitude_km;
+  const ground = await person.look();
+  if (person.size === 'phone') {
+    const slider = (await person.find('camera.altitude_km')).locator('input[type=range]');
+    const { x, y, width, height } = await slider.boundingBox();
+    await person.press(x + 0.3 * width, y + height / 2);
+    await person.move(x + 0.85 * width, y + height / 2, 20);
+    await person.lift();
+  } else {
+    await page.locator('#picture').focus();
+    for (let i = 0; i < 90; ++i) await page.keyboard.press('w');
+  }
+  assert.ok((await altitude()) > 400, `${await altitude()} km`);
+  await person.rest();
+  assert.notEqual(await person.look(), ground);
+  const { pitch_deg: pitch } = (await person.scene()).camera;
+  assert.ok(pitch < -5, `the horizon, which has sunk, is kept in sight: ${pitch}`);
+  await person.photograph('space');
+});
+
+visit('the sun can be dragged', async (person, page) => {
+  // Straight ahead at 10 degrees, where the camera looks: the middle of the picture.
+  await person.drag({ x: 0.5, y: 0.5 }, { x: 0.6, y: 0.4 });
+  const { sun, camera } = await person.scene();
+  assert.equal(camera, undefined);
+  assert.ok(sun.elevation_deg > 12 && sun.elevation_deg < 20, `elevation ${sun.elevation_deg}`);
+  assert.ok(sun.azimuth_deg > 2, `azimuth ${sun.azimuth_deg}`);
+}, { hash: '#preset=earth&sun.elevation_deg=10&sun.azimuth_deg=0' });
+
+visit('a link is the scene, and back goes back', async (person, page) => {
+  assert.equal((await person.scene()).sun.elevation_deg, 3);
+  await person.type('sun.elevation_deg', '12');
+  await person.rest();
+  assert.equal(person.hash(), '#preset=mars&sun.elevation_deg=12');
+  const later = await person.look();
+  await page.goBack();
+  await person.rest();
+  assert.equal((await person.scene()).sun.elevation_deg, 3);
+  await page.goForward();
+  await person.rest();
+  assert.equal((await person.scene()).sun.elevation_deg, 12);
+  assert.equal(await person.look(), later);
+}, { hash: '#preset=mars&sun.elevation_deg=3' });
+
+visit('undo and redo', async (person, page) => {
+  await person.type('sun.elevation_deg', '12');
+  await person.rest();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  assert.equal((await person.scene()).sun, undefined);
+  await page.getByRole('button', { name: 'Redo' }).click();
+  assert.equal((await person.scene()).sun.elevation_deg, 12);
+  await page.locator('#picture').focus();
+  await page.keyboard.press('Control+z');
+  assert.equal((await person.scene()).sun, undefined);
+  await page.keyboard.press('Control+Shift+Z');
+  assert.equal((await person.scene()).sun.elevation_deg, 12);
+});
+
+visit('JSON, link, curl and Python make the same frame', async (person, page) => {
+  await person.tab('Save');
+  await person.photograph('save');
+  const copied = async (kind) => {
+    await page.getByRole('button', { name: `Copy ${kind}` }).click();
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  const folder = await mkdtemp(path.join(os.tmpdir(), 'sky-'));
+  try {
+    assert.deepEqual(JSON.parse(await copied('JSON')),
+                     { preset: 'earth', sun: { elevation_deg: 5 }, image: { tone_map: 'aces' } });
+    assert.equal(await copied('Link'), page.url());
+    await run('bash', ['-c', await copied('curl')], { cwd: folder });
+    const byCurl = await readFile(path.join(folder, 'sky.png'));
+    assert.equal(startOf(byCurl), PNG);
+    await rm(path.join(folder, 'sky.png'));
+    await run('python3', ['-c', await copied('Python')], { cwd: folder });
+    assert.ok(byCurl.equals(await readFile(path.join(folder, 'sky.png'))));
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}, { hash: '#preset=earth&sun.elevation_deg=5&image.tone_map=aces' });
+
+visit('PNG and EXR are downloaded at a chosen size', async (person, page) => {
+  await person.tab('Save');
+  await page.getByLabel('Width', { exact: true }).fill('320');
+  await page.getByLabel('Height', { exact: true }).fill('100');
+  for (const [format, start] of [['png', PNG], ['exr', EXR]]) {
+    await page.getByLabel('As', { exact: true }).selectOption(format);
+    const [download] = await Promise.all([
+      page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
+    assert.equal(download.suggestedFilename(), `earth.${format}`);
+    const bytes = await readFile(await download.path());
+    assert.equal(startOf(bytes), start);
+    if (format !== 'png') continue;
+    assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [320, 100]);
+  }
+});
+
+visit('an EXR has its layers apart, an environment map is a whole sphere', async (person, page) => {
+  await person.tab('Save');
+  const save = async () => {
+    const [download] = await Promise.all([
+      page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
+    return readFile(await download.path());
+  };
+  await page.getByLabel('Width', { exact: true }).fill('64');
+  await page.getByLabel('As', { exact: true }).selectOption('exr');
+  await page.getByLabel('Light of the air').check();
+  await page.getByLabel('Transmittance').check();
+  const channels = (await save()).subarray(0, 600).toString('latin1');
+  for (const name of ['inscatter.R', 'transmittance.B']) assert.ok(channels.includes(name), name);
+  assert.ok(!channels.includes('ground.R'));
+  await page.getByLabel('As', { exact: true }).selectOption('sphere_hdr');
+  assert.equal(await page.getByLabel('Height', { exact: true }).inputValue(), '32');
+  const sphere = (await save()).toString('latin1');
+  assert.match(sphere, /^#\?RADIANCE/);
+  assert.match(sphere, /-Y 32 \+X 64/);
+});
+
+visit('a slider dragged for ten seconds leaves no request and no error behind', async (person, page) => {
+  const open = new Set();
+  page.on('request', (request) => open.add(request));
+  for (const end of ['requestfinished', 'requestfailed']) page.on(end, (request) => open.delete(request));
+  const slider = (await person.find('sun.elevation_deg')).locator('input[type=range]');
+  const box = await slider.boundingBox();
+  const y = box.y + box.height / 2;
+  await person.press(box.x + box.width / 2, y);
+  const ends = Date.now() + 10000;
+  for (let i = 0; Date.now() < ends; ++i) {
+    await person.move(box.x + box.width * (0.5 + 0.4 * Math.sin(i / 30)), y);
+    await page.waitForTimeout(16);
+  }
+  await person.lift();
+  await person.rest();
+  const { started, flying, failed, most } = await person.requests();
+  assert.ok(started > 5, `${started} frames`);
+  assert.deepEqual({ flying, failed, most }, { flying: 0, failed: 0, most: 1 });
+  await person.until(() => page.waitForTimeout(50).then(() => !open.size), 'what was asked when the hand rested ends too');
+  const metrics = await (await fetch(new URL('/metrics', page.url()))).text();
+  for (const idle of [/^cyanometer_queue_depth 0$/m, /^cyanometer_device_busy 0$/m]) assert.match(metrics, idle);
+});
+
+visit('what is not a number is refused where it was typed', async (person, page) => {
+  await person.type('sun.elevation_deg', 'high');
+  assert.match(await person.control('sun.elevation_deg').locator('.problem').innerText(), /number/);
+});
+
+// One colour instead of the pictures; without one, the pictures again. Runs in the page.
+function showInstead(colour = '') {
+  for (const one of [document.documentElement, document.body]) one.style.background = colour;
+  for (const canvas of document.querySelectorAll('main > canvas')) canvas.style.visibility = colour && 'hidden';
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  visit(`it is accessible in the ${colorScheme}`, async (person, page) => {
+    const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
+    await page.evaluate(axe);
+    // With as much to see as there is.
+    await page.locator('.card[data-name=air] summary .name').click();
+    await page.locator('[data-group=day] summary').click();
+    await page.locator('.strip-marks span').first().waitFor();
+    await person.tab('Compare');
+    await page.getByLabel('Against', { exact: true }).selectOption('nishita');
+    await page.locator('.figures [data-figure=error]').waitFor();
+    await page.locator('#picture').focus();
+    await page.keyboard.press('p');
+    await page.locator('#probe .plot').first().waitFor();
+    const ask = async (what, options) => {
+      const { violations } = await page.evaluate((rules) => window.axe.run(document, rules), options);
+      assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map((n) => n.html)]), [], what);
+    };
+    for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) {
+      await person.tab(tab);
+      await ask(tab, {});
+      // Contrast over a picture cannot be told: it is over the brightest and the darkest there are.
+      for (const sky of ['white', 'black']) {
+        await page.evaluate(showInstead, sky);
+        await ask(`${tab} over ${sky}`, { runOnly: ['color-contrast'] });
+      }
+      await page.evaluate(showInstead);
+    }
+    const { 0: red } = (await page.locator('#panel')
+      .evaluate((panel) => getComputedStyle(panel).color)).match(/\d+/);
+    assert.equal(Number(red) > 128, colorScheme === 'dark');
+    await person.tab('Adjust');
+    await person.photograph(colorScheme);
+  }, { colorScheme, hash: `#preset=earth${FEW}` });
+}
+
+visit('the wheel, or two fingers, zoom', async (person, page) => {
+  if (person.size === 'phone') {
     const apart = (gap) => [{ x: 195 - gap, y: 260 }, { x: 195 + gap, y: 260 }];
     await person.touch('touchStart', apart(30));
     for (let gap = 35; gap <= 90; gap += 5) await person.touch('touchMove', apart(gap));
     await person.touch('touchEnd', []);
-    assert.ok((await person.scene()).camera.fov_deg < 40);
-  });
+  } else {
+    await page.mouse.move(400, 400);
+    for (let i = 0; i < 4; ++i) await page.mouse.wheel(0, -150);
+  }
+  assert.ok((await person.scene()).camera.fov_deg < 40);
+});
+
+visit('keys look, climb, move the sun and show their own help', async (person, page) => {
+  await page.locator('#picture').focus();
+  for (const key of ['ArrowRight', 'ArrowUp', 'w', 'd', '+']) await page.keyboard.press(key);
+  const { camera, sun } = await person.scene();
+  assert.ok(camera.heading_deg > 0 && camera.pitch_deg > 10 && camera.altitude_km > 0.002);
+  assert.ok(camera.fov_deg < 60 && sun.elevation_deg > 30);
+  await page.keyboard.press('0');
+  assert.equal((await person.scene()).camera, undefined);
+  await page.keyboard.press('?');
+  assert.ok(await page.getByRole('dialog').isVisible());
+  await page.waitForTimeout(200);
+  await person.photograph('help');
+  await page.keyboard.press('Escape');
+  assert.ok(!(await page.getByRole('dialog').isVisible()));
+  await page.keyboard.press('c');
+  assert.equal(await page.locator('#panel').isVisible(), false);
+});
+
+visit('everything can be reached with the tabulator', async (person, page) => {
+  await page.locator('#picture').focus();
+  const reached = new Set();
+  for (let i = 0; i < 60; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => document.activeElement.getAttribute('aria-label') ??
+      document.activeElement.textContent.trim()));
+  }
+  for (const name of ['Help', 'Adjust', 'Elevation', 'Azimuth']) assert.ok(reached.has(name), name);
+});
+
+visit('all of the page comes from the daemon', async (person, page) => {
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  await page.reload();
+  for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) await person.tab(tab);
+  await person.rest();
+  const { origin } = new URL(page.url());
+  assert.ok(asked.length > 20, `${asked.length} requests`);
+  assert.deepEqual(asked.filter((address) => !/^(blob|data):/.test(address) && new URL(address).origin !== origin), []);
+  assert.deepEqual(person.complaints, []);
 });

@@ -39,19 +39,23 @@ export class Daemon {
   get address() {
     return `http://127.0.0.1:${this.port}/`;
   }
+  get #runs() {
+    return this.process?.exitCode === null && this.process.signalCode === null;
+  }
   async resume() {
+    if (this.#runs) return;
     this.process = spawn(binary, ['serve', '--log-level', 'warning', '--listen', `127.0.0.1:${this.port}`],
                          { stdio: ['ignore', 'ignore', 'inherit'] });
     for (let attempt = 0; attempt < 1200; ++attempt) {
       const ready = await fetch(`${this.address}readyz`).catch(() => undefined);
       if (ready?.ok) return;
-      if (this.process.exitCode !== null) break;
+      if (!this.#runs) break;
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
     throw new Error(`${binary} serve did not become ready`);
   }
   async stop() {
-    if (this.process.exitCode !== null) return;
+    if (!this.#runs) return;
     const exit = once(this.process, 'exit');
     this.process.kill('SIGKILL');
     await exit;
@@ -90,36 +94,86 @@ function countFrames() {
   };
 }
 
+// Notes whether the scene has settled since it last changed.
+function watchScene() {
+  window.sceneSettled = true;
+  const dispatchAsBefore = EventTarget.prototype.dispatchEvent;
+  EventTarget.prototype.dispatchEvent = function (event) {
+    const ofScene = !(this instanceof Node);
+    if (ofScene && event.type === 'change') window.sceneSettled = false;
+    const answer = dispatchAsBefore.call(this, event);
+    if (ofScene && event.type === 'settle') window.sceneSettled = true;
+    return answer;
+  };
+}
+
+const PATIENCE_MS = 90000;  // laws, not speeds: machines may be slow
+
 /** Somebody who looks at the page; what the console complains of is in `complaints`. */
 export class Person {
-  static async arrive(browser, daemon, size, { hash = '', ...options } = {}) {
+  /**
+   * Comes to the page at one of `SIZES` and waits until the sky is there. `hash` names the sky; `patience`
+   * is what each wait may take from then on, in ms; `breakage` the `{ file, text, instead }` that is served otherwise (no
+   * file where there is no text); what else there is goes to the browser.
+   */
+  static async arrive({ browser, daemon }, size, { hash = '#preset=earth', patience = PATIENCE_MS, breakage, ...options } = {}) {
     const person = new Person();
-    person.size = size;
-    person.complaints = [];
+    Object.assign(person, { size, patience: PATIENCE_MS, whole: !breakage, complaints: [] });
     person.context = await browser.newContext({ ...SIZES[size], acceptDownloads: true, ...options });
     await person.context.grantPermissions(['clipboard-read', 'clipboard-write']);
     person.page = await person.context.newPage();
-    person.page.setDefaultTimeout(90000);  // laws, not speeds: machines may be slow
+    person.page.setDefaultTimeout(PATIENCE_MS);
     person.page.on('console', (message) => {
       if (message.type() === 'error') person.complaints.push(message.text());
     });
     person.page.on('pageerror', (error) => person.complaints.push(String(error)));
     await person.page.addInitScript(countFrames);
-    await person.page.goto(daemon.address + hash);
-    await person.page.locator('.fold').first().waitFor();
-    await person.rest();
+    await person.page.addInitScript(watchScene);
+    if (breakage) await person.#break(breakage);
+    try {
+      await person.page.goto(daemon.address + hash);
+      await person.page.locator('.fold').first().waitFor();
+      await person.rest();
+    } catch (error) {
+      await person.leave();
+      throw error;
+    }
+    person.patience = patience;
+    person.page.setDefaultTimeout(patience);
     return person;
+  }
+
+  async #break({ file, text, instead }) {
+    const place = file === 'index.html' ? '/' : `/${file}`;
+    await this.context.route(({ pathname }) => pathname === place, async (route) => {
+      if (text === undefined) return route.fulfill({ status: 404 });
+      const response = await route.fetch();
+      return route.fulfill({ response, body: (await response.text()).replace(text, () => instead) });
+    });
   }
 
   /** Waits until the picture on screen is the final one. */
   async rest() {
-    await this.page.waitForTimeout(450);
+    await this.settle();
     await this.page.waitForFunction(() => {
       const picture = document.getElementById('picture');
       const full = Math.round(picture.clientWidth * devicePixelRatio);
-      return window.frameRequests.flying === 0 && picture.dataset.state === 'sharp' &&
+      return window.sceneSettled && window.frameRequests.flying === 0 && picture.dataset.state === 'sharp' &&
         Math.abs(picture.width - full) <= 2;
-    }, undefined, { timeout: 90000 });
+    }, undefined, { timeout: this.patience });
+  }
+  /** Waits until what was changed last is in the history, the address and the texts. */
+  async settle() {
+    await this.page.evaluate(() => new Promise((resolve) => {  // a new layout is noticed within a frame
+      requestAnimationFrame(() => requestAnimationFrame(resolve));
+    }));
+    await this.page.waitForFunction(() => window.sceneSettled);
+  }
+  /** Looks until `look()` is true. @throws TimeoutError that says `words` */
+  async until(look, words) {
+    for (const ends = Date.now() + this.patience; !(await look());) {
+      if (Date.now() > ends) throw Object.assign(new Error(words), { name: 'TimeoutError' });
+    }
   }
   async leave() {
     await this.context.close();
@@ -185,7 +239,7 @@ export class Person {
 
   /** The scene that the address names, as the page's own JSON. */
   async scene() {
-    await this.page.waitForTimeout(450);
+    await this.settle();
     return JSON.parse(await this.page.locator('pre[aria-label="The scene: JSON"]').textContent());
   }
   hash() {
@@ -207,6 +261,7 @@ export class Person {
     return createHash('sha256').update(await this.page.screenshot({ clip })).digest('hex');
   }
   async photograph(name) {
+    if (!this.whole) return;
     await mkdir(screenshots, { recursive: true });
     await this.page.screenshot({ path: path.join(screenshots, `${this.size}-${name}.png`) });
   }

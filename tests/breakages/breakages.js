@@ -1,0 +1,288 @@
+// What each feature of the page rests on, and what stands in its stead where it is taken out.
+//
+// By sentence of a test: [the feature, its file, the text, the text instead, the size if at one alone]. The
+// text stands in the file once; a file without a text is missing. A page so broken still comes up: the test
+// itself must notice.
+
+const NOTHING = '';
+
+const BY_SENTENCE = {
+  // ---- The window and the panel ---------------------------------------------------------------
+
+  'the picture fills the window and the controls fold away': [
+    ['folding', 'panel.js', `byId('panel').hidden = !open;`, `byId('panel').hidden = false;`],
+    ['a way back', 'panel.js', `byId('open').addEventListener('click', () => show(true));`, NOTHING],
+    ['filling the window', 'style.css', 'inset: 0;\n  width: 100%;\n  height: 100%;\n  object-fit: contain;',
+     'inset: 0;\n  width: 80%;\n  height: 100%;\n  object-fit: contain;'],
+  ],
+  'every number of the schema has a slider, in a group': [
+    ['sliders', 'editors.js', `h('div', { className: 'number' }, slider,`, `h('div', { className: 'number' },`],
+    ['units', 'editors.js', `const unit = unitText(node['x-unit']);`, `const unit = '';`],
+    ['a group of its own for the light', 'panel.js', `['light', 'Light'], `, NOTHING],
+  ],
+  'a number can be typed, and given back': [
+    ['typed values', 'editors.js', 'else binding.set(value);\n    },\n    onkeydown', '},\n    onkeydown'],
+    ['reset', 'controls.js', 'hidden: true, onclick: () => state.edit({ [path]: undefined }),', 'hidden: true,'],
+  ],
+  'what is not a number is refused where it was typed': [
+    ['saying so', 'editors.js', `if (value === undefined) binding.complain('This needs a number.');\n      else binding.set(value);\n    },\n    onkeydown`,
+     'if (value !== undefined) binding.set(value);\n    },\n    onkeydown'],
+  ],
+  'a logarithmic slider moves by factors': [
+    ['logarithmic scales', 'numbers.js', `slider.scale === 'log' && this.high > 0;`, 'false;'],
+  ],
+  'help says in words what a control is': [
+    ['help', 'controls.js', 'this.help.hidden = !this.help.hidden;', NOTHING],
+    ['its words', 'controls.js', `hidden: true }, node.description ?? '');`, `hidden: true });`],
+  ],
+
+  // ---- The air --------------------------------------------------------------------------------
+
+  'constituents have cards; they are switched off, added and removed': [
+    ['their sliders', 'constituents.js', '...shown.map((name) => this.controls.make(`${path}.${name}`, members[name])),', NOTHING],
+    ['switching off', 'constituents.js', 'this.state.edit({ [path]: null });', NOTHING],
+    ['switching on', 'constituents.js', 'this.state.edit({ [path]: kept?.patch ?? undefined });', NOTHING],
+    ['adding', 'constituents.js', 'this.state.edit({ [`${ROOT}.${free}`]: TEMPLATES[template] });', NOTHING],
+    ['removing', 'constituents.js', 'this.state.edit({ [`${ROOT}.${name}`]: undefined });', NOTHING],
+  ],
+  'a constituent is drawn against altitude, angle and wavelength': [
+    ['the profile', 'curves.js', 'profile: drawProfile,', 'profile: () => undefined,'],
+    ['the phase as a polar plot', 'curves.js', 'phase: drawPhase,', 'phase: drawCoefficient,'],
+    ['the coefficients', 'curves.js', 'coefficient: drawCoefficient }', 'coefficient: drawProfile }'],
+    ['words where there is no phase', 'curves.js', `curves ? 'It does not scatter.' : ''`, `''`],
+  ],
+  'the curves follow the sliders': [
+    ['asking anew', 'constituents.js', `if (this.list.querySelector('details[open]')) this.optics.refresh();`,
+     `if (!this.optics.answer && this.list.querySelector('details[open]')) this.optics.refresh();`],
+  ],
+  'visibility and optical depth move together': [
+    ['the optical depth that follows', 'together.js', 'if (now > 0 && value > 0) state.edit({ [path]: scaled(state.value(path), now / value) });', NOTHING],
+    ['the visibility that follows', 'together.js', 'return known && then > 0 && now > 0 ? known * (then / now) : undefined;',
+     'return known && (window.firstVisibility ??= known);'],
+  ],
+  'temperature and scale height move together when they are tied': [
+    ['the tie', 'together.js', 'if (!this.#tied.has(root)) return {};', 'return {};'],
+  ],
+  'a spectrum is edited as red, green and blue': [
+    ['setting one of three', 'editors.js', 'set: (value) => binding.set(binding.get().map((old, k) => (k === i ? value : old))),', 'set: () => {},'],
+    ['wavelengths for three values', 'together.js', `return { 'spectrum.wavelengths_nm': USUAL_PRIMARIES_NM };`, 'return {};'],
+  ],
+  'a spectrum is edited as a curve of nodes': [
+    ['dragging a node', 'spectrum.js', 'if (place.hasPointerCapture(event.pointerId)) this.#dragTo(spot(event));', NOTHING],
+    ['keys on a node', 'spectrum.js', 'ArrowUp: () => raise(step), ArrowDown: () => raise(-step),', NOTHING],
+    ['adding a node', 'spectrum.js', 'list.splice(this.#chosen, 0, [Math.round((left + right) / 2), tidy((a + b) / 2)]);', NOTHING],
+  ],
+
+  // ---- Hands on the picture -------------------------------------------------------------------
+
+  'dragging looks around': [
+    ['the drag', 'camera.js', 'else this.#drag(now.x - before.x, now.y - before.y);', NOTHING],
+  ],
+  'the wheel, or two fingers, zoom': [
+    ['the wheel', 'camera.js', `canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });`, NOTHING, 'desktop'],
+    ['the pinch', 'camera.js', `if (this.#grip === 'pinch') this.zoom(gap / this.#gap());`, `if (this.#grip === 'pinch') return;`, 'phone'],
+  ],
+  'keys look, climb, move the sun and show their own help': [
+    ['looking', 'camera.js', 'ArrowLeft: () => this.look(-step, 0), ArrowRight: () => this.look(step, 0),', NOTHING],
+    ['climbing', 'camera.js', 'w: () => this.climb(1.15), s: () => this.climb(1 / 1.15),', NOTHING],
+    ['zooming', 'camera.js', `'+': () => this.zoom(1 / 1.08),`, NOTHING],
+    ['raising the sun', 'camera.js', 'd: () => this.#raiseSun(0.5), a: () => this.#raiseSun(-0.5),', NOTHING],
+    ['the way home', 'camera.js', '0: () => this.#home(),', NOTHING],
+    ['the sheet of keys', 'page.js', `if (event.key === '?') byId('help').showModal();\n    else if`, 'if'],
+    ['folding by a key', 'page.js', 'this.panel.toggle();', ';'],
+  ],
+  'one flies from the ground to space': [
+    ['climbing', 'camera.js', `const edit = { 'camera.altitude_km': tidy(next, 4) };`, 'const edit = {};', 'desktop'],
+    ['the horizon in sight', 'camera.js', `return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };`, 'return {};'],
+    ['the slider', 'editors.js', 'oninput: () => binding.set(scale.toValue(Math.round(slider.valueAsNumber))),', NOTHING, 'phone'],
+    ['another picture', 'view.js', 'this.context.transferFromImageBitmap(bitmap);', 'if (!this.drawn) { this.context.transferFromImageBitmap(bitmap); this.drawn = bitmap.width > 700; }'],
+  ],
+  'everything can be reached with the tabulator': [
+    ['sliders in their turn', 'editors.js', `type: 'range', min: 0, max: scale.positions,`, `type: 'range', tabIndex: -1, min: 0, max: scale.positions,`],
+    ['help in its turn', 'index.html', '<button id="show-help"', '<button id="show-help" tabindex="-1"'],
+  ],
+  'the sun can be dragged': [
+    ['the grip on the sun', 'camera.js', `this.#isOnSun(event) ? 'sun' : 'look';`, `'look';`],
+  ],
+
+  // ---- The day --------------------------------------------------------------------------------
+
+  'a place and a time set the sun; the strip shows the day from dawn to dusk': [
+    ['slices of the day', 'day_strip.js', 'if (!signal.aborted) this.#put(bitmap, at);', NOTHING],
+    ['its times', 'day_strip.js', `[[sunrise, 'sunrise'], [highest.time, 'highest'], [sunset, 'sunset']]`, '[]'],
+    ['places', 'day.js', 'this.#move({ latitude_deg: latitude, longitude_deg: longitude });', NOTHING],
+    ['dates', 'day.js', 'if (this.date.value) this.#move({ date: this.date.value });', NOTHING],
+    ['the moment on the strip', 'day_strip.js', 'oninput: () => onChoose(this.slider.valueAsNumber / POSITIONS)', NOTHING],
+  ],
+  'the day plays as a time-lapse': [
+    ['its frames', 'day.js', 'this.view.present(bitmap, facts);', NOTHING],
+    ['its clock', 'day.js', 'this.#point(last, true);', NOTHING],
+    ['stopping', 'day.js', 'if (this.#lapse.running) return this.#lapse.stop();', 'if (this.#lapse.running) return;'],
+  ],
+  'a time-lapse plays in any page, in an <img>': [['the stream', 'v1/stream']],
+
+  // ---- Frames ---------------------------------------------------------------------------------
+
+  'frames follow the hand, small, and sharpen when it rests': [
+    ['small frames', 'view.js', 'return { ...this.#sizeUpTo(this.#movingPixels), moving: true };', 'return { ...this.fullSize(), moving: true };'],
+    ['frames while the hand moves', 'view.js', 'if (restsIn > 0 && fresh) {', 'if (restsIn > 0 && this.facts) {'],
+    ['sharpening', 'view.js', 'if (this.#shown.pixels >= full) return undefined;', 'if ((this.wasSharp ||= this.#shown.pixels >= full)) return undefined;'],
+  ],
+  'a slider dragged for ten seconds leaves no request and no error behind': [
+    ['one request at a time', 'view.js', 'if (this.#flight && !this.#mayAbandon(now)) return;\n    const size = this.#nextSize(now);\n    if (!size) return;\n    this.#abandon(now);',
+     'const size = this.#nextSize(now);\n    if (!size) return;'],
+    ['asking for what there is', 'view.js', `image: { ...image, width, height, format: 'png' } };`, `image: { ...image, width, height, format: this.facts && moving ? 'gif' : 'png' } };`],
+  ],
+  'the frame says its speed, method, options, error and exposure': [
+    ['the device time', 'facts.js', `['Render', `, `['', `],
+    ['the method', 'facts.js', `['Method', `, `['', `],
+    ['the options', 'facts.js', `['Options', `, `['', `],
+    ['the error', 'facts.js', `['Error', `, `['', `],
+    ['the exposure', 'facts.js', `['Exposure', `, `['', `],
+    ['frames per second', 'facts.js', 'facts.moving || framesPerSecond > 4', 'false'],
+  ],
+
+  // ---- Compare --------------------------------------------------------------------------------
+
+  'a wipe shows the same sky by another method': [
+    ['the other method', 'compare.js', ': { ...scene, method: { name: this.against.value } };', ': scene;'],
+    ['the cut', 'wipe.js', 'this.other.style.clipPath = `inset(0 0 0 ${percent})`;', NOTHING],
+    ['dragging the line', 'wipe.js', 'this.#move((event.clientX - box.left) / box.width);', NOTHING],
+    ['keys on the line', 'wipe.js', 'this.#move(this.#share + STEP[event.key]);', NOTHING],
+  ],
+  'a pinned sky is wiped against what was changed': [
+    ['pinning', 'compare.js', 'this.#pinned = this.state.document();', 'this.#pinned = { preset: this.state.preset };\n    Object.defineProperty(this.#pinned, \'sun\', { enumerable: true, get: () => this.state.document().sun });'],
+    ['going back to one sky', 'wipe.js', 'hide() {\n    this.handle.hidden = this.other.hidden = true;', 'hide() {\n    this.handle.hidden = true;'],
+  ],
+  'the error picture shows where they differ, with a scale': [
+    ['the picture', 'overlay.js', 'this.context.drawImage(bitmap, -(bitmap.width - width) / 2, 0);', NOTHING],
+    ['its scale', 'compare.js', 'this.place.append(scale);', NOTHING],
+    ['figures', 'compare.js', 'this.place.replaceChildren(figuresTable(figures));', NOTHING],
+    ['hiding it when the sky changes', 'compare.js', 'this.other.change();\n    this.overlay.hide();', 'this.other.change();'],
+  ],
+  'where the method falls short in this sky is told, and where the measurements are': [
+    ['the note', 'limits.js', 'this.note.hidden = !limits.length || this.view.facts?.method !== method;', 'this.note.hidden = true;'],
+    ['the limits', 'limits.js', `h('ul', {}, limits.map((text) => h('li', {}, text))),`, NOTHING],
+    ['the measurements', 'failures.html'],
+  ],
+  'what each part is worth is told in bars, and how far the work is': [
+    ['bars', 'explain.js', 'if (worth) put(draw(worth));', NOTHING],
+    ['their order', 'explain.js', '.sort(([, a], [, b]) => b.error - a.error)', NOTHING],
+    ['progress', 'explain.js', '(share) => { done.value = share; }', '() => {}'],
+  ],
+  'speed and accuracy are charted while they are measured; a point is taken': [
+    ['points as they come', 'chart.js', 'this.#redraw = undefined;\n      this.#draw();', 'this.#redraw = undefined;\n      if (!this.#task.running) this.#draw();'],
+    ['the Pareto front', 'chart.js', 'const front = paretoFront(this.#points);', 'const front = [];'],
+    ['stopping', 'chart.js', 'if (this.#task.running) return this.#task.stop();', 'if (this.#task.running) return undefined;'],
+    ['click to choose', 'chart.js', `dot.addEventListener('click', choose);`, NOTHING],
+    ['keys to choose', 'chart.js', `if (event.key !== 'Enter' && event.key !== ' ') return;`, 'return;'],
+    ['the mark of what is chosen', 'chart.js', `dot.setAttribute('aria-pressed', String(dot.dataset.point === keyOf({ method: name, options })));`, NOTHING],
+  ],
+  'an EXR that is dropped is judged against the sky': [
+    ['dropping', 'own.js', 'curtain.hidden = true;\n      this.#take(event.dataTransfer.files[0]);', 'curtain.hidden = true;'],
+    ['the curtain', 'own.js', 'curtain.hidden = false;', NOTHING],
+    ['figures', 'own.js', 'if (figures) this.#put(title, figuresTable(figures));', NOTHING],
+    ['its error picture', 'own.js', `const ask = mode === 'air' ? composite : judgeAsPicture;`, 'const ask = () => undefined;'],
+    ['the way back', 'own.js', 'onclick: () => {\n      this.overlay.hide();', 'onclick: () => {'],
+  ],
+  'a picture with distances gets the air of the sky': [
+    ['the air', 'own.js', `this.modes.choose(hasAir ? 'air' : 'figures');`, `this.modes.choose('figures');`],
+  ],
+  'an EXR is chosen where none can be dropped': [
+    ['choosing', 'own.js', 'onchange: () => this.#take(this.input.files[0])', NOTHING],
+  ],
+  'what is no EXR is said in words': [
+    ['the words', 'own.js', 'return this.#say(error.message);', 'return undefined;'],
+  ],
+
+  // ---- The probe ------------------------------------------------------------------------------
+
+  'a pixel tells its spectrum, colour, luminance, transmittance and error': [
+    ['pointing', 'probe.js', 'if (this.#active()) this.#point(detail);', NOTHING],
+    ['the spectrum', 'probe.js', `series: [{ name: 'Radiance', points: along(light), kind: 'main' }] }),`, 'series: [] }),'],
+    ['the colour', 'probe.js', `['Colour', [swatch, shown ?? 'outside the picture']],`, NOTHING],
+    ['the luminance', 'probe.js', `['Luminance', `, `['', `],
+    ['the transmittance', 'probe.js', `series: [{ name: 'Transmittance', points: along(clear), kind: 'second' }] }),`, 'series: [] }),'],
+    ['the error', 'probe.js', `['Error', `, `['', `],
+    ['the ring', 'probe.js', 'this.mark.style.left = `${spot.x}px`;', NOTHING],
+    ['the ring that stays with its direction', 'probe.js', 'const pixel = toPixel(direction(elevation, azimuth), this.#camera, width, height);',
+     'const pixel = toPixel(direction(elevation, azimuth), (this.still ??= { ...this.#camera }), width, height);'],
+  ],
+  'a plot reads its values off by keys': [
+    ['keys on a plot', 'plot.js', 'show(chosen + step * (event.shiftKey ? 10 : 1));', NOTHING],
+    ['P for the middle', 'page.js', `event.key.toLowerCase() === 'p') this.probe.middle();`, `event.key.toLowerCase() === 'p') ;`],
+  ],
+  'a panorama is probed where it is pointed at': [
+    ['its margins', 'probe.js', 'fromPixel({ x: x - left, y: y - top },', 'fromPixel({ x, y },'],
+  ],
+
+  // ---- Skies, history, what is taken away -----------------------------------------------------
+
+  'presets are thumbnails that the daemon has rendered': [
+    ['thumbnails', 'presets.js', 'image.src = address;', NOTHING],
+    ['taking one', 'presets.js', 'onclick: () => state.load({ preset: preset.name, patch: {} }),', NOTHING],
+  ],
+  'undo and redo': [
+    ['undo', 'page.js', `byId('undo').addEventListener('click', () => state.undo());`, NOTHING],
+    ['redo', 'page.js', `byId('redo').addEventListener('click', () => state.redo());`, NOTHING],
+    ['their keys', 'page.js', 'if (event.shiftKey) this.state.redo();\n      else this.state.undo();', NOTHING],
+  ],
+  'a link is the scene, and back goes back': [
+    ['reading the link', 'main.js', 'new State(readLink(location.hash))', `new State(readLink('#preset=mars'))`],
+    ['writing it', 'link.js', `history.pushState({}, '', linkOf(state.snapshot()));`, NOTHING],
+    ['going back', 'link.js', 'if (!equal(linked, state.snapshot())) state.load(linked);', NOTHING],
+  ],
+  'JSON, link, curl and Python make the same frame': [
+    ['copying', 'dom.js', 'await navigator.clipboard.writeText(text);', NOTHING],
+    ['JSON', 'link.js', 'JSON: (state) => JSON.stringify(state.document(), null, 2),', 'JSON: ({ preset }) => JSON.stringify({ preset }),'],
+    ['the link', 'link.js', `location.href.split('#')[0] + linkOf(state.snapshot()),`, `location.href.split('#')[0] + String(state.preset),`],
+    ['curl', 'link.js', 'JSON.stringify(state.document()))}\'', 'JSON.stringify({}))}\''],
+    ['Python', 'link.js', 'file.write(answer.read())', 'pass'],
+  ],
+  'PNG and EXR are downloaded at a chosen size': [
+    ['saving', 'dom.js', `h('a', { href: address, download: name }).click();`, NOTHING],
+    ['the size', 'save.js', 'const size = () => ({ width: pixels(width), height: pixels(height) });', 'const size = () => ({ width: 64, height: 36 });'],
+    ['EXR', 'save.js', `title: 'OpenEXR, linear light', image: { format: 'exr' }`, `title: 'OpenEXR, linear light', image: { format: 'png' }`],
+  ],
+  'an EXR has its layers apart, an environment map is a whole sphere': [
+    ['layers', 'save.js', '...(apart.length ? { layers: apart } : {}),', NOTHING],
+    ['the sphere', 'save.js', `image: { format: 'hdr' }, camera: SPHERE }`, `image: { format: 'hdr' } }`],
+    ['HDR', 'save.js', `title: 'Environment map, HDR', image: { format: 'hdr' }`, `title: 'Environment map, HDR', image: { format: 'png' }`],
+  ],
+
+  // ---- Troubles -------------------------------------------------------------------------------
+
+  'a busy daemon is asked again when it says': [
+    ['the words', 'api.js', 'return `The daemon is busy; trying again in ${error.retryAfterSeconds} s.`;', `return '';`],
+    ['the wait', 'view.js', 'this.#retryAt = performance.now() + waitMs(error, ++this.#attempts);', 'this.#retryAt = performance.now() + 100;'],
+    ['asking again', 'retry.js', 'error instanceof Busy || error instanceof Gone;', 'error instanceof Gone;'],
+  ],
+  'a daemon that went away comes back without a reload': [
+    ['the words', 'api.js', `if (error instanceof Gone) return 'The daemon does not answer; trying again.';`, `if (error instanceof Gone) return '';`],
+    ['asking again', 'retry.js', 'error instanceof Busy || error instanceof Gone;', 'error instanceof Busy;'],
+  ],
+  'a refusal is shown beside its control, under the last good picture': [
+    ['its place', 'main.js', 'const beside = error.pointer && page?.controls?.complain(fromPointer(error.pointer), error.message);', 'const beside = false;'],
+    ['the last good picture', 'main.js', `view.addEventListener('refused', ({ detail }) => sayRefused(detail));`,
+     `view.addEventListener('refused', ({ detail }) => { sayRefused(detail); view.context.transferFromImageBitmap(null); });`],
+    ['its end', 'main.js', `page?.controls?.forgive();`, NOTHING],
+  ],
+
+  // ---- Manners --------------------------------------------------------------------------------
+
+  'all of the page comes from the daemon': [
+    ['keeping to it', 'main.js', `bindAddress(state);`, `bindAddress(state);\nfetch('https://example.org/').catch(() => {});`],
+  ],
+  'it is accessible in the light': [
+    ['contrast', 'style.css', '--quiet: #47525e;', '--quiet: #aab5c1;'],
+    ['names of buttons', 'index.html', 'aria-label="Undo" title="Undo (Ctrl+Z)"', NOTHING],
+  ],
+  'it is accessible in the dark': [
+    ['contrast', 'style.css', '--quiet: #aab5c1;', '--quiet: #47525e;'],
+    ['the dark', 'style.css', '@media (prefers-color-scheme: dark) {\n  :root {', '@media print {\n  :root {'],
+    ['names of sliders', 'editors.js', `step: scale.logarithmic ? 1 : 'any',\n    'aria-label': binding.label,`, `step: scale.logarithmic ? 1 : 'any',`],
+  ],
+};
+
+export const BREAKAGES = Object.entries(BY_SENTENCE).flatMap(([sentence, all]) =>
+  all.map(([without, file, text, instead, size]) => ({ sentence, without, file, text, instead, size })));
