@@ -33,24 +33,24 @@ function thumbnailSize(preset) {
   return { width: WIDTH, height: HEIGHT };
 }
 
-// Loads what has come into sight, one after the other, behind the frame on screen.
+// Loads what is in sight, one after the other, behind the frame on screen.
 function thumbnailQueue(idle) {
-  const waiting = [];
+  const waiting = new Set();
   let running = false;
   const addresses = new WeakMap();
   const sight = new IntersectionObserver((entries) => {
     for (const { isIntersecting, target } of entries) {
-      if (!isIntersecting) continue;
-      sight.unobserve(target);
-      waiting.push(target);
+      if (isIntersecting) waiting.add(target);
+      else waiting.delete(target);
     }
     if (!running) run();
   });
   async function run() {
     running = true;
-    while (waiting.length) {
-      await idle();
-      const image = waiting.shift();
+    for (await idle(); waiting.size; await idle()) {
+      const [image] = waiting;
+      waiting.delete(image);
+      sight.unobserve(image);
       if (!(await load(image, addresses.get(image)))) {
         setTimeout(() => sight.observe(image), RETRY_MS);
       }

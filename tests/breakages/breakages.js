@@ -95,7 +95,7 @@ const BY_SENTENCE = {
     ['climbing', 'camera.js', `const edit = { 'camera.altitude_km': tidy(next, 4) };`, 'const edit = {};', 'desktop'],
     ['the horizon in sight', 'camera.js', `return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };`, 'return {};'],
     ['the slider', 'editors.js', 'oninput: () => binding.set(scale.toValue(Math.round(slider.valueAsNumber))),', NOTHING, 'phone'],
-    ['another picture', 'view.js', 'this.context.transferFromImageBitmap(bitmap);', 'if (!this.drawn) { this.context.transferFromImageBitmap(bitmap); this.drawn = bitmap.width > 700; }'],
+    ['another picture', 'view.js', '#request({ width, height, moving }) {\n    const scene = this.scene();', '#request({ width, height, moving }) {\n    const scene = (this.first ??= this.scene());'],
   ],
   'everything can be reached with the tabulator': [
     ['sliders in their turn', 'editors.js', `type: 'range', min: 0, max: scale.positions,`, `type: 'range', tabIndex: -1, min: 0, max: scale.positions,`],

@@ -9,7 +9,7 @@ import { collectVisits, company } from '../web/visits.js';
 import { BREAKAGES } from './breakages.js';
 
 // What waits in vain need not do so for long, where the whole page needs less; on a slow machine it may not.
-const PATIENCES_MS = [12000, 90000];
+const PATIENCES_MS = [12000, 40000, 90000];
 
 const visits = collectVisits();
 const tests = new URL('../web/', import.meta.url);

@@ -102,11 +102,13 @@ visit('where the method falls short in this sky is told, and where the measureme
 
 visit('what each part is worth is told in bars, and how far the work is', async (person, page) => {
   await person.tab('Compare');
-  await page.getByRole('button', { name: 'Explain' }).click();
-  await page.locator('#explain-block progress').evaluate((progress) => {
+  await page.locator('#explain-block').evaluate((block) => {
     window.shares = [];
-    new MutationObserver(() => window.shares.push(progress.position)).observe(progress, { attributes: true });
+    new MutationObserver((changes) => {
+      for (const { target } of changes) if (target.matches('progress')) window.shares.push(target.position);
+    }).observe(block, { subtree: true, attributes: true });
   });
+  await page.getByRole('button', { name: 'Explain' }).click();
   const bars = page.locator('#explain-block .bars li');
   await bars.first().waitFor();
   const rows = await bars.evaluateAll((all) => all.map((row) => [
@@ -155,7 +157,7 @@ visit('speed and accuracy are charted while they are measured; a point is taken'
 visit('an EXR that is dropped is judged against the sky', async (person, page) => {
   const scene = { preset: 'earth', spectrum: { wavelengths_nm: [680, 550, 440] }, camera: { fov_deg: 40 } };
   const answer = await fetch(new URL('/v1/render', page.url()), { method: 'POST', body: JSON.stringify({
-    ...scene, method: { name: 'nishita' }, image: { width: 40, height: 24, format: 'exr' } }) });
+    ...scene, method: { name: 'nishita' }, image: { width: 20, height: 12, format: 'exr' } }) });
   await drop(page, 'mine.exr', Buffer.from(await answer.arrayBuffer()));
   const error = page.locator('#own-block [data-figure=error] dd');
   await error.waitFor();
