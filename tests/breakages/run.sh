@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Takes the page's features out one by one and demands that the page's tests notice: see breakages.js.
-# Some forty minutes on two cores. CYANOMETER_BREAKAGES, a regular expression, names some of them:
+# The better part of an hour on two cores. CYANOMETER_BREAKAGES, a regular expression, names some of them:
 #
 #   CYANOMETER_BREAKAGES='undo|desktop.*probe' ./cyanometer test breakages
 set -euo pipefail
