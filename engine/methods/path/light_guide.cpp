@@ -98,7 +98,7 @@ class Views {
            mu_sun = sun_of(p_, i % P::LIGHT_SUNS, P::LIGHT_SUNS);
     sunbeams_.emplace_back();
     if (p_.meets_ground(h, mu_sun)) return;
-    double column[P::MEDIA_SIZE];
+    double column[P::MEDIA_SIZE] = {};
     p_.columns_to_top(h, mu_sun, column);
     sunbeams_.back() = std::to_array(column);
   }
