@@ -124,7 +124,7 @@ Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene&
           {}};
   if (problem.show.stars) {
     Physics<double> camera = pack<double>(problem);
-    job.stars = star_pixels(problem, camera);
+    job.stars = star_pixels(problem, camera, star_light_);
   }
   if (!job.stars.pixels.empty()) {
     job.star_buffers.push_back(upload(device, job.stars.pixels));

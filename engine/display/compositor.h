@@ -68,6 +68,7 @@ class Compositor {
 
  private:
   vulkan::Kernel compose_, stars_, overlay_, display_;
+  StarLight star_light_;
 };
 
 }  // namespace cyanometer

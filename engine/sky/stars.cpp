@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
 
@@ -69,24 +68,44 @@ glm::dmat3 sky_to_local(const Camera& camera) {
   return glm::transpose(glm::dmat3(east, glm::cross(up, east), up));
 }
 
-StarPixels star_pixels(const Problem& problem, Physics<double>& camera) {
-  std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
-  std::map<int, std::vector<glm::vec4>> lit;
-  glm::dmat3 turn = sky_to_local(problem.camera);
+const std::vector<float>& StarLight::at(double wavelength_nm) {
+  constexpr std::size_t most = 64;
+  auto known = by_wavelength_.find(wavelength_nm);
+  if (known != by_wavelength_.end()) return known->second;
+  if (by_wavelength_.size() >= most) by_wavelength_.clear();
+  std::vector<float>& light = by_wavelength_[wavelength_nm];
   for (const Star& star : star_catalogue()) {
-    std::optional<int> pixel = pixel_of(camera, turn * star.direction);
-    if (!pixel) continue;
-    auto& radiance = lit.try_emplace(*pixel, groups, glm::vec4(0)).first->second;
-    double solid_angle = pixel_solid_angle(camera, *pixel);
-    for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
-      radiance[w / 4][static_cast<int>(w % 4)] +=
-          static_cast<float>(star_irradiance(star, problem.wavelengths_nm[w]) / solid_angle);
+    light.push_back(static_cast<float>(star_irradiance(star, wavelength_nm)));
+  }
+  return light;
+}
+
+StarPixels star_pixels(const Problem& problem, Physics<double>& camera, StarLight& light) {
+  glm::dmat3 turn = sky_to_local(problem.camera);
+  std::vector<std::pair<int, std::size_t>> seen;  // pixel, star
+  const std::vector<Star>& stars = star_catalogue();
+  for (std::size_t k = 0; k < stars.size(); ++k) {
+    std::optional<int> pixel = pixel_of(camera, turn * stars[k].direction);
+    if (pixel) seen.emplace_back(*pixel, k);
+  }
+  std::sort(seen.begin(), seen.end());
+  StarPixels result;
+  for (const auto& [pixel, star] : seen) {
+    if (result.pixels.empty() || result.pixels.back() != pixel) result.pixels.push_back(pixel);
+  }
+  std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
+  result.radiance.resize(result.pixels.size() * groups, glm::vec4(0));
+  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
+    const std::vector<float>& irradiance = light.at(problem.wavelengths_nm[w]);
+    std::size_t at = 0;
+    for (const auto& [pixel, star] : seen) {
+      if (result.pixels[at] != pixel) ++at;
+      result.radiance[at * groups + w / 4][static_cast<int>(w % 4)] += irradiance[star];
     }
   }
-  StarPixels result;
-  for (auto& [pixel, radiance] : lit) {
-    result.pixels.push_back(pixel);
-    result.radiance.insert(result.radiance.end(), radiance.begin(), radiance.end());
+  for (std::size_t at = 0; at < result.pixels.size(); ++at) {
+    float solid_angle = static_cast<float>(pixel_solid_angle(camera, result.pixels[at]));
+    for (std::size_t g = 0; g < groups; ++g) result.radiance[at * groups + g] /= solid_angle;
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // the pixels of a frame that hold one.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "engine/physics/pack.h"
@@ -22,6 +23,16 @@ const std::vector<Star>& star_catalogue();
 /// temperatures, scaled to the visual magnitudes at 550 nm; the sun as from the Earth, -26.74.
 double star_irradiance(const Star& star, double wavelength_nm);
 
+/// star_irradiance of the whole catalogue, kept between frames: their wavelengths seldom change.
+class StarLight {
+ public:
+  /// By star, in the catalogue's order; valid until the next call.
+  const std::vector<float>& at(double wavelength_nm);
+
+ private:
+  std::map<double, std::vector<float>> by_wavelength_;  ///< a few dozen at most
+};
+
 /// Turns a direction among the stars to x east, y north, z up at the camera's foot point: the
 /// right ascension in its meridian is its sidereal time.
 glm::dmat3 sky_to_local(const Camera& camera);
@@ -32,6 +43,6 @@ struct StarPixels {
   std::vector<glm::vec4>
       radiance;  ///< [pixel][group of wavelengths], per unit irradiance, 1/sr
 };
-StarPixels star_pixels(const Problem& problem, Physics<double>& camera);
+StarPixels star_pixels(const Problem& problem, Physics<double>& camera, StarLight& light);
 
 }  // namespace cyanometer

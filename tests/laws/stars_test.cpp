@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/document.h"
+#include "engine/sky/pixel.h"
 
 namespace cyanometer {
 namespace {
@@ -95,13 +96,38 @@ TEST(Stars, AreBackAfterASiderealDayAndTheSunIsADegreeFurtherEast) {
 }
 
 TEST(Stars, OfAFrameTurnWithTheTimeAndComeBack) {
-  auto pixels = [](const char* time) {
+  StarLight light;
+  auto pixels = [&](const char* time) {
     Problem problem = make_problem(seen_from(48, 2, time), {550});
     P camera = pack<double>(problem);
-    return star_pixels(problem, camera).pixels;
+    return star_pixels(problem, camera, light).pixels;
   };
   EXPECT_NE(pixels("2024-06-20T00:10:00Z"), pixels("2024-06-20T00:00:00Z"));
   EXPECT_EQ(pixels("2024-06-20T23:56:04.0905Z"), pixels("2024-06-20T00:00:00Z"));
+}
+
+/// Whatever pixels they fall on, and at any wavelengths, however many were asked for before.
+TEST(Stars, OfAWholeSphereSendWhatTheCatalogueSends) {
+  Scene scene = seen_from(48, 2, "2024-06-20T00:00:00Z");
+  scene.camera.projection = Projection::equirectangular;
+  scene.image.width = 256;
+  scene.image.height = 128;
+  StarLight light;
+  for (double nm = 360; nm < 440; ++nm) light.at(nm);
+  std::vector<double> wavelengths = {400, 440, 500, 550, 680};
+  Problem problem = make_problem(scene, wavelengths);
+  P camera = pack<double>(problem);
+  StarPixels lit = star_pixels(problem, camera, light);
+  ASSERT_EQ(lit.radiance.size(), 2 * lit.pixels.size());
+  for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+    double sum = 0, expected = 0;
+    for (std::size_t k = 0; k < lit.pixels.size(); ++k) {
+      sum += lit.radiance[2 * k + w / 4][static_cast<int>(w % 4)] *
+             pixel_solid_angle(camera, lit.pixels[k]);
+    }
+    for (const Star& star : star_catalogue()) expected += star_irradiance(star, wavelengths[w]);
+    EXPECT_NEAR(sum / expected, 1, 1e-5) << wavelengths[w];
+  }
 }
 
 }  // namespace
