@@ -101,7 +101,8 @@ void write_file(const std::string& path, const std::string& bytes) {
 }
 
 Engine command_engine(const std::string& device) {
-  return Engine({.device = device, .profiles = cache_folder("profiles")});
+  constexpr std::size_t kernels = 600;  // of the many scenes that a command goes through
+  return Engine({.device = device, .kernels = kernels, .profiles = cache_folder("profiles")});
 }
 
 Watch command_watch() {
