@@ -23,7 +23,8 @@ const std::vector<Star>& star_catalogue();
 /// temperatures, scaled to the visual magnitudes at 550 nm; the sun as from the Earth, -26.74.
 double star_irradiance(const Star& star, double wavelength_nm);
 
-/// star_irradiance of the whole catalogue, kept between frames: their wavelengths seldom change.
+/// star_irradiance of the whole catalogue, kept between frames: their wavelengths seldom
+/// change.
 class StarLight {
  public:
   /// By star, in the catalogue's order; valid until the next call.
