@@ -1,6 +1,8 @@
 #include "engine/engine.h"
 
 #include <algorithm>
+#include <array>
+#include <cfenv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -150,6 +152,26 @@ std::string describe(const Scene& scene, const Plan& plan) {
   return document.dump();
 }
 
+/// Threads begin with the rounding of the one that makes them: those of a driver that
+/// calculates on the processor keep what is set while the device is made.
+class RoundingOfNewThreads {
+ public:
+  explicit RoundingOfNewThreads(Rounding rounding) : before_(std::fegetround()) {
+    constexpr std::array modes{FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+    std::fesetround(modes[static_cast<std::size_t>(rounding)]);
+  }
+  ~RoundingOfNewThreads() { std::fesetround(before_); }
+  RoundingOfNewThreads(const RoundingOfNewThreads&) = delete;
+
+ private:
+  int before_;
+};
+
+vulkan::Device make_device(const EngineOptions& options) {
+  const RoundingOfNewThreads scope(options.rounding);
+  return vulkan::Device(options.device);
+}
+
 }  // namespace
 
 nlohmann::json plan_document(const Plan& plan) {
@@ -183,7 +205,7 @@ void Watch::check() const {
 /// What lives as long as the device.
 struct Engine::Parts {
   explicit Parts(const EngineOptions& options)
-      : device(options.device),
+      : device(make_device(options)),
         commands(device),
         longest_dispatch_ms(options.longest_dispatch_ms),
         tables(options.table_bytes),

@@ -170,6 +170,9 @@ struct DeviceDescription {
   std::string why;
 };
 
+/// How a software device rounds; see accuracy/precision.h.
+enum class Rounding { nearest, up, down, towards_zero };
+
 struct EngineOptions {
   std::string device;  ///< part of a device's name; empty: the best there is
   double longest_dispatch_ms = 50;
@@ -178,6 +181,7 @@ struct EngineOptions {
   /// Where the paces of devices are kept (planner/profile.h); empty: nominal ones are reckoned
   /// with.
   std::filesystem::path profiles = {};
+  Rounding rounding = Rounding::nearest;  ///< others do nothing on a device of silicon
 };
 
 class Engine {

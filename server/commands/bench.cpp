@@ -74,7 +74,8 @@ void add_bench(CLI::App& app) {
   ChartSettings& settings = arguments->settings;
   settings.defaults_only = true;
   settings.reference = {256, 0.003, 4096};
-  command->add_option("--preset", arguments->presets, "Only these; may be repeated");
+  command->add_option("--preset", arguments->presets, "Only these; may be repeated")
+      ->check(CLI::IsMember(preset_names()));
   add_chart_options(*command, settings);
   command->add_option("--json", arguments->json_output, "Also as JSON in this file");
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");

@@ -53,7 +53,7 @@ int run_command(int count, char** arguments) {
   for (const auto add :
        {add_serve, add_render, add_radiance, add_plan, add_compare, add_composite, add_explain,
         add_devices, add_health, add_contact_sheet, add_schema, add_bench, add_chart, add_audit,
-        add_profile, add_load, add_tables, add_stability}) {
+        add_profile, add_load, add_tables, add_stability, add_precision}) {
     add(app);
   }
   try {
@@ -103,6 +103,12 @@ void write_file(const std::string& path, const std::string& bytes) {
 Engine command_engine(const std::string& device) {
   constexpr std::size_t kernels = 600;  // of the many scenes that a command goes through
   return Engine({.device = device, .kernels = kernels, .profiles = cache_folder("profiles")});
+}
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
 }
 
 Watch command_watch() {

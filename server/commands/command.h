@@ -40,6 +40,9 @@ void write_file(const std::string& path, const std::string& bytes);
 /// An engine on the device whose name has this part, with the profiles that the daemon keeps.
 Engine command_engine(const std::string& device);
 
+/// For options that take a preset.
+std::vector<std::string> preset_names();
+
 /// A watch that SIGINT and SIGTERM cancel and that shows a bar on a terminal.
 Watch command_watch();
 /// Draws the bar, with a note after it, on a terminal.
@@ -65,5 +68,6 @@ void add_profile(CLI::App& app);
 void add_load(CLI::App& app);
 void add_tables(CLI::App& app);
 void add_stability(CLI::App& app);
+void add_precision(CLI::App& app);
 
 }  // namespace cyanometer

@@ -18,12 +18,6 @@ struct Arguments {
   std::vector<std::string> presets;
 };
 
-std::vector<std::string> preset_names() {
-  std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.push_back(preset.name);
-  return names;
-}
-
 /// Those that are asked for, in the order in which they are shown; all where none is.
 std::vector<Preset> presets_of(const Arguments& arguments) {
   std::vector<Preset> shown = presets();
