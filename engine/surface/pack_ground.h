@@ -1,6 +1,7 @@
 // A ground in the device's layout, shaders/surface/data.glsl.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -12,6 +13,33 @@ namespace cyanometer {
 template <class Real>
 glm::vec<4, Real> packed_image(const SurfaceImages::Place& image) {
   return {image.width, image.height, image.levels, image.first};
+}
+
+/// Where a point lies in the lattice of each octave (shaders/surface/terrain.glsl): its cell
+/// and the place in it, as `surface_values` holds them.
+/// @param point  from the planet's centre, over its radius
+template <class Real>
+std::vector<glm::vec<4, Real>> packed_lattice(const glm::dvec3& point) {
+  using P = physics::Physics<double>;
+  std::vector<glm::vec<4, Real>> values;
+  glm::dvec3 p = point * P::FIRST_FREQUENCY;
+  for (int octave = 0; octave < P::OCTAVES; ++octave) {
+    glm::dvec3 cell = glm::floor(p);
+    for (const glm::dvec3& part : {cell, p - cell}) {
+      values.push_back(glm::vec<4, Real>(glm::vec<3, Real>(part), Real(0)));
+    }
+    p = p * 2.0 + glm::dvec3(P::OCTAVE_SHIFT_X, P::OCTAVE_SHIFT_Y, P::OCTAVE_SHIFT_Z);
+  }
+  return values;
+}
+
+/// Places on a procedural surface are then told from the planet's centre, not from a camera's
+/// foot point: directions from there.
+inline void tell_places_from_centre(physics::Physics<double>& p) {
+  using P = physics::Physics<double>;
+  p.surface_values[6] = glm::dvec4(0);  // foot_direction
+  std::ranges::copy(packed_lattice<double>(glm::dvec3(0)),
+                    p.surface_values.begin() + P::SURFACE_LATTICE);
 }
 
 template <class Real>
@@ -39,6 +67,7 @@ std::vector<glm::vec<4, Real>> packed_ground(const Ground& g) {
     }
   };
   append(g.sea_reflectance);
+  for (const Vec4& value : packed_lattice<Real>(up)) values.push_back(value);
   for (const std::vector<double>& spectrum : g.albedo) append(spectrum);
   return values;
 }

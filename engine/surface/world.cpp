@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/gauss_legendre.h"
+#include "engine/surface/pack_ground.h"
 
 namespace cyanometer {
 namespace {
@@ -51,6 +52,7 @@ P terrain_of(const ProceduralSurface& surface) {
   p.surface_values.assign(P::SURFACE_SPECTRA, glm::dvec4(0));
   p.surface_values[0].z = terrain_gain(surface);
   p.surface_values[1] = {surface.ice_latitude_deg, surface.vegetation, surface.seed, 0};
+  tell_places_from_centre(p);
   return p;
 }
 

@@ -1,5 +1,6 @@
 // What the surface of the scene is, in the buffer `surface_values`: two Vec4 of numbers, two for images, three for the
-// turn to the planet's frame, four for the sea, then the spectra of what it is made of, group by group of wavelengths.
+// turn to the planet's frame, four for the sea, two for each octave of a procedural surface, then the spectra of what it is
+// made of, group by group of wavelengths.
 
 CONSTANT int SURFACE_UNIFORM = 0;
 CONSTANT int SURFACE_PROCEDURAL = 1;
@@ -20,7 +21,10 @@ CONSTANT int SURFACE_COLOURS = 2;  // images of a map: columns, rows, levels, fi
 CONSTANT int SURFACE_HEIGHTS = 3;
 CONSTANT int SURFACE_SEA = 7;     // its reflectance at SEA_NODES cosines (sea.glsl)
 CONSTANT int SEA_NODES = 16;
-CONSTANT int SURFACE_SPECTRA = SURFACE_SEA + SEA_NODES / 4;
+CONSTANT int OCTAVES = 18;
+// Where the camera's foot point lies in each octave's lattice (terrain.glsl): its cell, and the place in it.
+CONSTANT int SURFACE_LATTICE = SURFACE_SEA + SEA_NODES / 4;
+CONSTANT int SURFACE_SPECTRA = SURFACE_LATTICE + 2 * OCTAVES;
 
 Real surface_relief_km() { return surface_values[0].x; }  // no height is above it
 Real sea_level() { return surface_values[0].y; }          // of continents, as terrain.glsl has them
@@ -33,6 +37,20 @@ Real mean_sea_reflectance() { return surface_values[1].w; }  // under an even sk
 
 Vec4 matter_albedo(int matter, int group) {
   return surface_values[SURFACE_SPECTRA + matter * GROUPS + group];
+}
+
+// From the camera's foot point to a place, both directions from the planet's centre in the foot point's frame. As
+// accurate as the horizontal coordinates of the place, which near the foot point are small: on a real planet the
+// difference of two unit vectors of floats is half a metre off.
+Vec3 aside_of_foot(Vec3 place) {
+  Real drop = place.z > 0.0 ? -(place.x * place.x + place.y * place.y) / (1.0 + place.z) : place.z - 1.0;
+  return Vec3(place.x, place.y, drop);
+}
+
+// The foot point, in the planet's frame.
+Vec3 foot_direction() {
+  Vec4 up = surface_values[6];
+  return Vec3(up.x, up.y, up.z);
 }
 
 // A direction from the planet's centre, in the frame of the camera's foot point, in that of the planet: z to

@@ -17,10 +17,12 @@ Real lattice_slope(int x, int y, int z, Uint seed, Vec3 offset) {
   return dot(gradient, offset);
 }
 
-// Between about -1 and 1, its mean 0, its standard deviation 0.27.
-Real gradient_noise(Vec3 p, Uint seed) {
-  Vec3 cell = floor(p);
-  Vec3 f = p - cell;
+// Between about -1 and 1, its mean 0, its standard deviation 0.27. At `aside` from the corner of a cell of the lattice,
+// so that places far from its origin are known as well as those near it.
+Real gradient_noise(Vec3 corner, Vec3 aside, Uint seed) {
+  Vec3 further = floor(aside);
+  Vec3 cell = corner + further;
+  Vec3 f = aside - further;
   int x = int(cell.x);
   int y = int(cell.y);
   int z = int(cell.z);
@@ -37,3 +39,5 @@ Real gradient_noise(Vec3 p, Uint seed) {
           lattice_slope(x + 1, y + 1, z + 1, seed, f - Vec3(1.0, 1.0, 1.0)), u.x), u.y);
   return mix(low, high, u.z);
 }
+
+Real gradient_noise(Vec3 p, Uint seed) { return gradient_noise(Vec3(0.0), p, seed); }

@@ -3,7 +3,6 @@
 // octave is the stronger the higher the ridges of the one before. Octaves that are finer than what is
 // looked at are left out, the last one faded, so nothing flickers and nothing pops.
 
-CONSTANT int OCTAVES = 18;
 CONSTANT Real FIRST_FREQUENCY = 1.7;  // of the planet's radius
 CONSTANT int FIRST_RIDGES = 5;        // octave
 
@@ -26,11 +25,18 @@ Real smooth_step(Real from, Real to, Real x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-Terrain terrain_at(Vec3 n, Real footprint_km) {
+// The lattices that a point on the unit sphere lies in, octave by octave: p = FIRST_FREQUENCY n, then p = 2 p +
+// OCTAVE_SHIFT.
+CONSTANT Real OCTAVE_SHIFT_X = 0.37;
+CONSTANT Real OCTAVE_SHIFT_Y = 0.71;
+CONSTANT Real OCTAVE_SHIFT_Z = 0.53;
+
+// `aside`: of the camera's foot point, in the planet's frame.
+Terrain terrain_at(Vec3 aside, Real footprint_km) {
   Terrain terrain;
   terrain.octaves = octaves_down_to(footprint_km);
   Uint seed = surface_seed() * 64u;
-  Vec3 p = n * FIRST_FREQUENCY;
+  Real frequency = FIRST_FREQUENCY;
   Real amplitude = 1.0;
   Real ridges = 0.0;
   Real ridge_amplitude = 1.0;
@@ -40,7 +46,11 @@ Terrain terrain_at(Vec3 n, Real footprint_km) {
   for (int octave = 0; octave < OCTAVES; ++octave) {
     Real shown = min(terrain.octaves - Real(octave), 1.0);
     if (shown <= 0.0) break;
-    Real noise = gradient_noise(p, seed + Uint(octave)) * shown;
+    Vec4 cell = surface_values[SURFACE_LATTICE + 2 * octave];
+    Vec4 in_cell = surface_values[SURFACE_LATTICE + 2 * octave + 1];
+    Real noise = gradient_noise(Vec3(cell.x, cell.y, cell.z),
+                                Vec3(in_cell.x, in_cell.y, in_cell.z) + aside * frequency,
+                                seed + Uint(octave)) * shown;
     terrain.continent += amplitude * noise;
     if (octave >= FIRST_RIDGES) {
       // Ridges of faded octaves are flat at their mean.
@@ -52,12 +62,12 @@ Terrain terrain_at(Vec3 n, Real footprint_km) {
       ridge_amplitude *= terrain_gain();
     }
     amplitude *= terrain_gain();
-    p = p * Real(2.0) + Vec3(0.37, 0.71, 0.53);
+    frequency *= 2.0;
   }
   terrain.land = terrain.continent - sea_level();
   terrain.grain = ridges;
   // Plains, and ranges of mountains here and there.
-  Real ranges = smooth_step(-0.1, 0.3, gradient_noise(n * Real(2.9) + Vec3(5.2, 1.3, 8.1), seed + 40u));
+  Real ranges = smooth_step(-0.1, 0.3, gradient_noise((foot_direction() + aside) * Real(2.9) + Vec3(5.2, 1.3, 8.1), seed + 40u));
   Real inland = smooth_step(0.0, 0.3, terrain.land);
   Real ridged = clamp(0.34 + 0.6 * ridges, 0.0, 1.0);
   terrain.height = inland * clamp(0.03 + 0.1 * min(terrain.land, 0.5) +

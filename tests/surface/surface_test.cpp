@@ -5,6 +5,7 @@
 
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
+#include "engine/accuracy/precision.h"
 #include "tests/scene/scene_testing.h"
 #include "tests/surface/testing.h"
 
@@ -263,6 +264,14 @@ TEST(Heights, LeaveLayersThatAddUpToTheFrame) {
     }
     EXPECT_TRUE(some_ground) << method;
   }
+}
+
+TEST(Heights, NearTheCameraAreAsExactAsOnATinyPlanet) {
+  PrecisionTrial trial("");
+  Scene scene = read_scene({{"preset", "earth_mountains"},
+                            {"image", {{"width", 320}, {"height", 180}}},
+                            {"spectrum", {{"wavelengths_nm", {550}}}}});
+  EXPECT_LT(trial.measure(scene, "raymarch", {}).error, 5e-3);
 }
 
 TEST(Heights, DoNotDependOnHowTheWorkIsCut) {

@@ -12,7 +12,9 @@ namespace cyanometer::surface_testing {
 namespace {
 
 P physics_of(const ProceduralSurface& surface) {
-  return pack<double>(make_problem(scene_on(surface, 1, 30), {680, 550, 440}));
+  P p = pack<double>(make_problem(scene_on(surface, 1, 30), {680, 550, 440}));
+  tell_places_from_centre(p);
+  return p;
 }
 
 /// Places spread over the whole sphere.
