@@ -194,6 +194,25 @@ TEST(Bruneton, HasNoSeamWhereTheCameraLeavesTheAir) {
   EXPECT_LT(difference(at(99.999), at(100.001), 1), 0.01);
 }
 
+/// Air that ends at its top, and the same with a trace of more that has no weight but leaves no
+/// place empty.
+TEST(Bruneton, LosesNoLightWhereAirEnds) {
+  for (double altitude_km : {60.0, 9000.0}) {
+    Scene scene = oracle::reference_scene(altitude_km, 25, 0.03);
+    scene.atmosphere.constituents.clear();
+    Molecules air{ScatteringCoefficient{PerWavelength{{0.0014, 0.0032, 0.0079}}}};
+    scene.atmosphere.constituents["air"] = {QuadraticProfile{}, air};
+    use(scene, std::nullopt, small_tables());
+    Scene traced = scene;
+    Molecules trace{ScatteringCoefficient{PerWavelength{{1e-9, 1e-9, 1e-9}}}};
+    traced.atmosphere.constituents["trace"] = {UniformProfile{}, trace};
+    std::vector<Direction> directions = sample_directions(scene, 128);
+    EXPECT_LT(measure_error(radiance(scene, directions), radiance(traced, directions)).error,
+              1e-3)
+        << altitude_km;
+  }
+}
+
 TEST(Bruneton, GathersForTheViewWhatTheTableHolds) {
   std::vector<Direction> directions = all_around(24);
   auto with_gather = [&](int gather) {

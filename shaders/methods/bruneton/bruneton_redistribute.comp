@@ -35,6 +35,28 @@ void add_phases(Vec3 from, Vec3 to, ARRAY(Real, density, MEDIA_SIZE),
   }
 }
 
+bool any_scatters(ARRAY(Real, density, MEDIA_SIZE)) {
+  Real sum = 0.0;
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    UNROLL for (int g = 0; g < GROUPS; ++g) {
+      Vec4 coefficient = scattering(c, g) * density[c];
+      sum += coefficient.x + coefficient.y + coefficient.z + coefficient.w;
+    }
+  }
+  return sum > 0.0;
+}
+
+// Densities in the proportions that constituents have at an altitude. A node where nothing scatters, at the top of
+// air that ends there or in a gap, is still a neighbour of places where something does: it has the proportions
+// a little below it, or else all there is.
+void scatterers_at(Real h, OUT_ARRAY(Real, density, MEDIA_SIZE)) {
+  densities(h, density);
+  if (any_scatters(density)) return;
+  densities(h * 0.999, density);
+  if (any_scatters(density)) return;
+  UNROLL for (int c = 0; c < MEDIA; ++c) density[c] = 1.0;
+}
+
 void main() {
   int pair = push.first_pair + int(gl_GlobalInvocationID.x);
   if (pair >= push.end_pair) return;
@@ -54,7 +76,7 @@ void main() {
   Vec3 to = towards(cos(out_zenith), out_azimuth);
 
   Real density[MEDIA_SIZE];
-  densities(node_altitude(push.altitude), density);
+  scatterers_at(node_altitude(push.altitude), density);
   Vec4 sum[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) sum[g] = Vec4(0.0);
   add_phases(towards(mu, in_azimuth), to, density, sum);
