@@ -158,7 +158,7 @@ visit('the frame says its speed, method, options, error and exposure', async (pe
   if (person.size === 'phone') await page.getByRole('button', { name: 'Fold the controls away' }).click();
   for (const [fact, text] of Object.entries(said)) {
     const place = page.locator(`[data-fact=${fact}]`);
-    assert.ok(await place.isVisible(), fact);
+    await place.waitFor();
     assert.match(await place.innerText(), text);
   }
   await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
