@@ -31,6 +31,7 @@ export function paretoFront(points) {
 
 export class ChartBlock {
   #task = new Task();
+  #stopped = false;
   #head;
   #points = [];
   #redraw;
@@ -63,11 +64,12 @@ export class ChartBlock {
   }
 
   async #press() {
-    if (this.#task.running) return this.#task.stop();
+    if (this.#task.running) return this.#stop();
     const scene = this.#scene();
     this.measured = JSON.stringify(scene);
     this.#points = [];
     this.#head = undefined;
+    this.#stopped = false;
     this.place.classList.remove('stale');
     this.place.replaceChildren();
     this.button.textContent = 'Stop';
@@ -80,6 +82,11 @@ export class ChartBlock {
       this.words.textContent = inWords(error);
     }
     this.button.textContent = 'Measure';
+  }
+
+  #stop() {
+    this.#stopped = true;
+    this.#task.stop();
   }
 
   #take(line) {
@@ -100,9 +107,12 @@ export class ChartBlock {
     const { width, height, points } = this.#head;
     const measured = `${this.#points.length} settings`;
     const small = `Measured on small frames, ${width} × ${height}.`;
-    this.words.textContent = this.#task.running
-      ? `${measured} of up to ${points} measured… ${small}`
-      : `${measured}. ${small} The line joins what nothing else beats.`;
+    if (this.#task.running) {
+      this.words.textContent = `${measured} of up to ${points} measured… ${small}`;
+      return;
+    }
+    const done = this.#stopped ? `Stopped after ${measured} of up to ${points}` : measured;
+    this.words.textContent = `${done}. ${small} The line joins what nothing else beats.`;
   }
 
   #draw() {

@@ -173,7 +173,7 @@ const BY_SENTENCE = {
   'speed and accuracy are charted while they are measured; a point is taken': [
     ['points as they come', 'chart.js', 'this.#redraw = undefined;\n      this.#draw();', 'this.#redraw = undefined;\n      if (!this.#task.running) this.#draw();'],
     ['the Pareto front', 'chart.js', 'const front = paretoFront(this.#points);', 'const front = [];'],
-    ['stopping', 'chart.js', 'if (this.#task.running) return this.#task.stop();', 'if (this.#task.running) return undefined;'],
+    ['stopping', 'chart.js', 'if (this.#task.running) return this.#stop();', 'if (this.#task.running) return undefined;'],
     ['click to choose', 'chart.js', `dot.addEventListener('click', choose);`, NOTHING],
     ['keys to choose', 'chart.js', `if (event.key !== 'Enter' && event.key !== ' ') return;`, 'return;'],
     ['the mark of what is chosen', 'chart.js', `dot.setAttribute('aria-pressed', String(dot.dataset.point === keyOf({ method: name, options })));`, NOTHING],

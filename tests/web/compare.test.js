@@ -138,6 +138,7 @@ visit('speed and accuracy are charted while they are measured; a point is taken'
     assert.ok(best.length >= 1);
     await page.getByRole('button', { name: 'Stop' }).click();
     await page.locator('#chart-block').getByRole('button', { name: 'Measure' }).waitFor();
+    assert.match(await page.locator('#chart-block [role=status]').innerText(), /^Stopped after \d+ settings of up to \d+/);
     const count = await points.count();
     await page.locator('.point[data-method=raymarch]').first().focus();
     await page.keyboard.press('Enter');
