@@ -18,7 +18,7 @@ struct PrecisionPoint {
 /// towards zero. Each operation is wrong by less than a unit in its last place then, by half a
 /// unit at most when rounded to nearest, and one-sided errors don't cancel: what the values
 /// change is about what they are wrong by at most [Kahan 2006, How futile are mindless
-/// assessments of roundoff in floating-point computation?, section 14]. It needs no second
+/// assessments of roundoff in floating-point computation?]. It needs no second
 /// program in double, and holds the tables' halves and the driver's own functions as they are.
 class PrecisionTrial {
  public:
