@@ -9,6 +9,7 @@
 #include "engine/accuracy/reference.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
+#include "engine/stability/brightest.h"
 
 namespace cyanometer {
 namespace {
@@ -33,10 +34,18 @@ constexpr std::size_t hemisphere_rays = 16384;
   throw BrokenFrame(text);
 }
 
-void check(const Radiances& radiances, const std::vector<Direction>& directions) {
+/// Walks may make more of the light than there is by their noise, and quadrature by its error.
+void check(const Radiances& radiances, const std::vector<Direction>& directions,
+           const std::vector<double>& brightest) {
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (double value : radiances.radiance[i]) {
-      if (!(value >= 0 && std::isfinite(value))) broken("radiance", value, directions[i]);
+    const std::vector<double>& values = radiances.radiance[i];
+    for (std::size_t w = 0; w < values.size(); ++w) {
+      if (!(values[w] >= 0 && std::isfinite(values[w])))
+        broken("radiance", values[w], directions[i]);
+      double sure = values[w];
+      if (radiances.standard_error) sure -= 4 * (*radiances.standard_error)[i][w];
+      if (sure > 2 * brightest[w])
+        broken("radiance beyond what the sun sends in,", values[w], directions[i]);
     }
     for (double value : radiances.transmittance[i]) {
       if (!(value >= 0 && value <= 1 + 1e-6)) broken("transmittance", value, directions[i]);
@@ -133,15 +142,16 @@ Radiances Trial::look(const json& document, const std::vector<Direction>& direct
         scene, directions, irradiance,
         plan_of(scene, irradiance ? hemisphere_rays : directions.size()), watch_);
   }
-  check(radiances, directions);
+  check(radiances, directions, brightest_possible(scene, radiances.wavelengths_nm));
   return radiances;
 }
 
 Radiances Trial::look(const json& document, const std::vector<Direction>& directions,
                       const Plan& plan) {
   watch_.check();
-  Radiances radiances = engine_.radiance(scene_of(document), directions, false, plan, watch_);
-  check(radiances, directions);
+  Scene scene = scene_of(document);
+  Radiances radiances = engine_.radiance(scene, directions, false, plan, watch_);
+  check(radiances, directions, brightest_possible(scene, radiances.wavelengths_nm));
   return radiances;
 }
 

@@ -13,7 +13,8 @@
 
 namespace cyanometer {
 
-/// A radiance or transmittance that is not finite, or negative, or above 1.
+/// A radiance or transmittance that is not finite, or negative, or above 1, or more light than
+/// there is.
 struct BrokenFrame : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -38,10 +38,11 @@ StretchedNode stretched_node(StretchedPath path, Real x, Real weight) {
   return node;
 }
 
-// Distance on the way up at which a ray comes to an altitude, within its length.
+// Distance on the way up at which a ray comes to an altitude, within its length; 0 for one that it starts above,
+// be that below the planet's centre.
 Real distance_up_to(Real altitude, Real h, Real mu, Real length_km) {
   Real b = (scene.planet_radius_km + h) * mu;
-  Real c = max((altitude - h) * (2.0 * scene.planet_radius_km + altitude + h), 0.0);
+  Real c = max(altitude - h, 0.0) * (2.0 * scene.planet_radius_km + altitude + h);
   return c > 0.0 ? min(c / (sqrt(b * b + c) + b), length_km) : 0.0;
 }
 

@@ -65,6 +65,12 @@ TEST(Columns, OnSmallPlanetsAreWithinAFewPartsIn10000) {
   EXPECT_LT(worst_difference(small), 3e-4);
 }
 
+TEST(Columns, OfTentsWiderThanThePlanetAreWithinAFewPartsIn10000) {
+  EXPECT_LT(worst_difference(shell(6360, 100, {TentProfile{1700, 1e5}, TentProfile{0, 13000}})),
+            2e-5);
+  EXPECT_LT(worst_difference(shell(50, 20, {TentProfile{8, 60}, TentProfile{0, 200}})), 3e-4);
+}
+
 TEST(Columns, OfHalfTheNodesAreWithinSixParts1000) {
   Problem earth = shell(6360, 100,
                         {ExponentialProfile{8}, ExponentialProfile{1.2}, TentProfile{25, 15},

@@ -151,5 +151,32 @@ TEST(FoundScenes, CloudsAreSeenToWhereTheirLightComesFrom) {
   }
 }
 
+TEST(FoundScenes, DustThatThinsSlowerThanThePlanetIsWideIsAsDenseAsUniformDust) {
+  // Its columns were none: light came through, and was made, a thousandfold at each order.
+  auto dust = [](const json& profile) {
+    return changed(plain_scene(), {{"camera", {{"altitude_km", 9000}}},
+                                   {"atmosphere",
+                                    {{"constituents",
+                                      {{"air", nullptr},
+                                       {"ozone", nullptr},
+                                       {"aerosol",
+                                        {{"type", "particles"},
+                                         {"optical_depth", 2},
+                                         {"phase", {{"type", "henyey_greenstein"}, {"g", 0.5}}},
+                                         {"profile", profile}}}}}}}});
+  };
+  json tent = dust({{"type", "tent"}, {"centre_km", 50}, {"half_width_km", 1e5}});
+  json uniform = dust({{"type", "uniform"}});
+  const std::vector<Direction> rays = fan({-90, -75, -67}, {0, 90});
+  for (const char* method : {"raymarch", "hillaire", "moments"}) {
+    Trial asked = trial(method);
+    auto seen = asked.look(tent, rays).radiance, expected = asked.look(uniform, rays).radiance;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(seen[i][c] / expected[i][c], 1, 2e-3) << method << ", ray " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cyanometer
