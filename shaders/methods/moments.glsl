@@ -257,6 +257,15 @@ RayNode ray_node(Cuts cuts, Real x, Real weight) {
   return node;
 }
 
+// In thick air the nodes' sum of extinction, transmittance and width is off from 1 - transmittance, what the ray
+// takes out of a beam, and where it is more each order of scattering makes light of nothing. This is what brings
+// the sum there. Nodes that missed nearly all of the air stay so.
+Vec4 balance_of(Vec4 sum, Vec4 depth) {
+  Vec4 taken = depth * mean_transmittances(depth);
+  const Real most = 2.0;
+  return min(max(taken, Vec4(1e-30)) / max(sum, Vec4(1e-30)), Vec4(most));
+}
+
 // --- Azimuths -----------------------------------------------------------------------------------------
 // Along a ray the axis' zenith cosine changes with the azimuth, in proportion to its cosine x. What a node of
 // the ray sends, beside the terms in azimuth that are known exactly, follows that smoothly: one to three

@@ -1,20 +1,20 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "methods/moments_device.glsl"
+#include "methods/moments_tail.glsl"
 
-// Closes the sum of orders by a geometric series and leaves it as skies read it: one invocation an altitude,
-// a sun and a group of wavelengths; the altitude after the last is the ground's irradiance.
-//
-// Each order becomes the same share of the one before everywhere, soonest where the sun is high. In the
-// planet's shadow the second order may be brighter than the first, for a while: the series takes a
-// share that is little more than that under the highest sun.
+// Adds all later orders to the sum and leaves it as skies read it: one invocation an altitude, a sun and a group
+// of wavelengths; the altitude after the last is the ground's irradiance.
 
-// What all further orders add, over the last one.
-Vec4 further(int at, int before, int at_noon, int before_noon) {
-  Vec4 share = exp(moments[at] - moments[before]);
-  Vec4 noon = exp(moments[at_noon] - moments[before_noon]);
-  Vec4 ratio = clamp(min(share, 1.25 * noon), 0.0, 0.98);
-  return push.tail != 0 ? ratio / (1.0 - ratio) : Vec4(0.0);
+// In the planet's shadow the second order may be brighter than the first, for a while: a chunk of later orders
+// has a share of the one before it that is little more than that under the highest sun.
+const Real MORE_THAN_AT_NOON = 1.25;
+const Real LARGEST_SHARE = 0.9998;
+
+Vec4 later_orders(int s, int at, int g) {
+  Vec4 sum = Vec4(0.0);
+  for (int n = 1; n < push.chunks; ++n) sum = sum + chunk(n, at) * moments[weight_at(n, s) + g];
+  return max(sum, Vec4(0.0));
 }
 
 void main() {
@@ -23,17 +23,29 @@ void main() {
   int g = index % GROUPS;
   int s = index / GROUPS % push.grid.suns;
   int i = index / GROUPS / push.grid.suns;
-  int noon = push.grid.suns - 1;
   bool ground = i == push.grid.altitudes;
-  int at = (ground ? irradiance_at(i, s) : moment_at(i, s, 0)) + g;
-  int at_noon = (ground ? irradiance_at(i, noon) : moment_at(i, noon, 0)) + g;
-  Vec4 last = exp(moments[at]) * further(at, before_at(i, s) + g, at_noon, before_at(i, noon) + g);
+  int at = lowest_at(i, s) + g;
   int sum = sum_table() + at;
-  Vec4 lowest = moments[sum] + last;
+  Vec4 later = Vec4(0.0);
+  Vec4 allowed = Vec4(1.0);  // of what the series says
+  if (push.chunks > 1) {
+    int noon = push.grid.suns - 1;
+    int at_noon = lowest_at(i, noon) + g;
+    later = later_orders(s, at, g);
+    Vec4 last = max(chunk(push.chunks - 1, at), Vec4(0.0));
+    Vec4 last_at_noon = max(chunk(push.chunks - 1, at_noon), Vec4(1e-30));
+    Vec4 to_last = later_orders(noon, at_noon, g) / last_at_noon;
+    Vec4 share = min(to_last / (to_last + 1.0) * MORE_THAN_AT_NOON, Vec4(LARGEST_SHARE));
+    Vec4 most = last * share / (1.0 - share);
+    allowed = min(most / max(later, Vec4(1e-30)), Vec4(1.0));
+  }
+  Vec4 lowest = moments[sum] + later * allowed;
   moments[sum] = moment_logarithm(lowest);
   if (ground) return;
   UNROLL for (int n = 1; n < SLOTS; ++n) {
     int own = n * GROUPS;
-    moments[sum + own] = moment_ratio(moments[sum + own] + moments[at + own] * last, lowest);
+    Vec4 more = Vec4(0.0);
+    for (int m = 1; m < push.chunks; ++m) more = more + chunk(m, at + own) * moments[weight_at(m, s) + g];
+    moments[sum + own] = moment_ratio(moments[sum + own] + more * allowed, lowest);
   }
 }

@@ -29,7 +29,7 @@ layout(push_constant) uniform Push {
   int each_azimuth;    // whether order one is traced at each azimuth, or at a few that stand for all
   int first_azimuth, end_azimuth;  // of order one in this dispatch, where it is each
   int first_altitude;              // of the rows there are now
-  int tail;            // whether all orders after the last are added
+  int chunks;          // of orders, by which all later ones are told; 0 where none are added
 } push;
 
 #define RAYS (push.up + push.down)
@@ -49,12 +49,13 @@ int light_at(int i, int j, int s) {
   return ((i * RAYS + j) * push.grid.suns + s) * LIGHT_SLOTS * GROUPS;
 }
 
-// Tables: of one order, the sum of all, the logarithms of the lowest moment of the order before, and the
-// sum again with more altitudes. Behind the moments of each lies the ground's diffuse irradiance.
+// Tables: of one order, the sum of all, the same with more altitudes, and the sums after some earlier orders.
+// Behind the moments of each lies the ground's diffuse irradiance.
 int table_size(int altitudes) { return (altitudes * SLOTS + 1) * push.grid.suns * GROUPS; }
 int sum_table() { return table_size(push.grid.altitudes); }
-int before_table() { return 2 * table_size(push.grid.altitudes); }
-int before_at(int i, int s) { return before_table() + (i * push.grid.suns + s) * GROUPS; }
+int earlier_table(int n) {
+  return (2 + n) * table_size(push.grid.altitudes) + table_size(push.fine_altitudes);
+}
 int moment_at(int i, int s, int slot) { return ((i * push.grid.suns + s) * SLOTS + slot) * GROUPS; }
 int irradiance_at(int altitudes, int s) { return altitudes * push.grid.suns * SLOTS * GROUPS + s * GROUPS; }
 

@@ -5,7 +5,6 @@
 // Adds an order to the sum and leaves it as the next one reads it.
 void keep(int i, int s, int g, Vec4 moment[SLOTS]) {
   int at = moment_at(i, s, 0) + g;
-  moments[before_at(i, s) + g] = moments[at];
   UNROLL for (int n = 0; n < SLOTS; ++n) {
     int sum = sum_table() + at + n * GROUPS;
     moments[sum] = moments[sum] + moment[n];
@@ -15,7 +14,6 @@ void keep(int i, int s, int g, Vec4 moment[SLOTS]) {
 
 void keep_irradiance(int s, int g, Vec4 irradiance) {
   int at = irradiance_at(push.grid.altitudes, s) + g;
-  moments[before_at(push.grid.altitudes, s) + g] = moments[at];
   moments[sum_table() + at] = moments[sum_table() + at] + irradiance;
   moments[at] = moment_logarithm(irradiance);
 }

@@ -1,11 +1,13 @@
 // Columns (km of density 1) of every constituent, and what they leave of the light.
 
-// exp(-sum of extinction times column).
-Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
+// Optical depth: the sum of extinction times column.
+Vec4 depth_of(ARRAY(Real, column, MEDIA_SIZE), int group) {
   Vec4 depth = Vec4(0.0);
   UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + extinction(c, group) * column[c];
-  return exp(-depth);
+  return depth;
 }
+
+Vec4 transmittance_of(ARRAY(Real, column, MEDIA_SIZE), int group) { return exp(-depth_of(column, group)); }
 
 // Mean of exp(-x) for x from 0 to an optical depth.
 Real mean_transmittance(Real depth) {

@@ -1,11 +1,13 @@
 #include "engine/methods/moments/tables.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "engine/methods/moments/grid.h"
 #include "spirv/moments_close.spv.h"
 #include "spirv/moments_first.spv.h"
+#include "spirv/moments_modes.spv.h"
 #include "spirv/moments_next.spv.h"
 #include "spirv/moments_order.spv.h"
 #include "spirv/moments_project.spv.h"
@@ -22,7 +24,7 @@ using Grid = MomentTables::Grid;
 struct Push {
   Grid grid;
   std::int32_t fine_altitudes, up, down, steps, first_steps, first, end, each_azimuth,
-      first_azimuth, end_azimuth, first_altitude, tail;
+      first_azimuth, end_azimuth, first_altitude, chunks;
 };
 struct RefinePush {
   MomentSolver::Axis axis;
@@ -40,6 +42,26 @@ int slots_of(int degree) { return (degree + 1) * (degree + 2) / 2 + 1; }
 
 constexpr std::size_t value_bytes = 16;
 
+/// Chunks of orders by which all later ones are told (shaders/methods/moments_tail.glsl).
+struct LaterOrders {
+  static constexpr int most_chunks = 4;
+  int chunks = 0;  ///< one more than the modes that are told apart; none where orders end
+  int each = 1;    ///< orders of a chunk
+
+  /// Modes lie the further apart the more orders a chunk has.
+  static LaterOrders of(const MomentSettings& settings) {
+    if (!settings.tail) return {};
+    int chunks = settings.orders >= 24 ? 4 : settings.orders >= 4 ? 3 : 2;
+    return {chunks, std::max(settings.orders / (chunks + 2), 1)};
+  }
+  /// Which chunk begins after an order, if one does.
+  std::optional<int> begins_after(int order, int orders) const {
+    int left = orders - order;
+    bool begins = left > 0 && left % each == 0 && left / each <= chunks;
+    return begins ? std::optional(chunks - left / each) : std::nullopt;
+  }
+};
+
 vulkan::Specialization solution_constants(const UploadedScene& scene,
                                           const MomentSettings& settings, bool particles) {
   vulkan::Specialization constants = moment_constants(scene, settings.degree, particles);
@@ -55,6 +77,7 @@ class Solution {
       : tracer_(tracer),
         scene_(scene),
         settings_(settings),
+        later_(LaterOrders::of(settings)),
         grid_(tables.grid),
         tables_(tables),
         constants_(solution_constants(scene, settings, series.particles)),
@@ -74,7 +97,7 @@ class Solution {
   }
 
   void trace_rays(const vulkan::Kernel& kernel) {
-    run(kernel, grid_.altitudes * rays() * (settings_.steps + 1), 40 * media(), push());
+    run(kernel, grid_.altitudes * rays(), 40 * media() * (settings_.steps + 1), push());
   }
 
   void trace_first_order(const vulkan::Kernel& kernel) {
@@ -104,6 +127,17 @@ class Solution {
         push());
   }
 
+  /// Keeps the sum so far where a chunk begins.
+  void keep(int order) {
+    if (std::optional<int> chunk = later_.begins_after(order, settings_.orders)) {
+      std::size_t table = table_values(grid_.altitudes) * value_bytes;
+      tracer_.commands.copy(
+          {moments_, table, table},
+          {moments_, (earlier_tables() + *chunk * table_values(grid_.altitudes)) * value_bytes,
+           table});
+    }
+  }
+
   void refine_order(const vulkan::Kernel& kernel) {
     run(kernel, static_cast<int>(order_values()), 12, push());
   }
@@ -120,7 +154,11 @@ class Solution {
   }
 
   /// The sum, as skies read it.
-  void finish(const vulkan::Kernel& close, MomentSolver& solver) {
+  void finish(const vulkan::Kernel& modes, const vulkan::Kernel& close, MomentSolver& solver) {
+    if (later_.chunks > 0) {
+      run(modes, grid_.suns * groups_, 8 * later_.chunks * later_.chunks * grid_.altitudes,
+          push());
+    }
     run(close, (grid_.altitudes + 1) * grid_.suns * groups_, 2 * slots(), push());
     int sum = table_values(grid_.altitudes);
     solver.refine(work_, tracer_, scene_, moments_, moments_, 1,
@@ -163,11 +201,14 @@ class Solution {
   int table_values(int altitudes) const {
     return (altitudes * slots() + 1) * settings_.suns * groups_;
   }
-  int fine_table() const {
-    return 2 * table_values(grid_.altitudes) + (grid_.altitudes + 1) * grid_.suns * groups_;
+  int fine_table() const { return 2 * table_values(grid_.altitudes); }
+  std::int64_t earlier_tables() const {
+    return fine_table() + table_values(finer_altitudes(grid_.altitudes));
   }
   std::int64_t moment_values() const {
-    return fine_table() + table_values(finer_altitudes(grid_.altitudes));
+    std::int64_t vectors = LaterOrders::most_chunks * (grid_.altitudes + 2);
+    return earlier_tables() + std::int64_t{later_.chunks} * table_values(grid_.altitudes) +
+           vectors * grid_.suns * groups_;
   }
 
   Push push() const {
@@ -183,7 +224,7 @@ class Solution {
             0,
             settings_.azimuths,
             0,
-            settings_.tail};
+            later_.chunks};
   }
 
   void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
@@ -200,6 +241,7 @@ class Solution {
   Tracer& tracer_;
   const UploadedScene& scene_;
   const MomentSettings& settings_;
+  LaterOrders later_;
   Grid grid_;
   MomentTables& tables_;
   vulkan::Specialization constants_;
@@ -244,6 +286,7 @@ MomentSolver::MomentSolver(vulkan::Device& device)
       order_(device, moments_order_spirv, UploadedScene::bindings + 6, sizeof(Push)),
       rows_(device, moments_rows_spirv, UploadedScene::bindings + 6, sizeof(Push)),
       next_(device, moments_next_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+      modes_(device, moments_modes_spirv, UploadedScene::bindings + 6, sizeof(Push)),
       close_(device, moments_close_spirv, UploadedScene::bindings + 6, sizeof(Push)),
       refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
 
@@ -258,12 +301,14 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   solution.trace_rays(rays_);
   solution.trace_first_order(first_);
   solution.project(project_);
+  solution.keep(1);
   for (int order = 2; order <= settings.orders; ++order) {
     solution.refine_order(order_);
     solution.trace_next_order(rows_, next_);
     solution.project(project_);
+    solution.keep(order);
   }
-  solution.finish(close_, *this);
+  solution.finish(modes_, close_, *this);
   return tables;
 }
 

@@ -80,7 +80,7 @@ class MomentSolver {
               const Axis& axis);
 
  private:
-  vulkan::Kernel rays_, first_, project_, order_, rows_, next_, close_, refine_;
+  vulkan::Kernel rays_, first_, project_, order_, rows_, next_, modes_, close_, refine_;
 };
 
 /// The scene's constants for a kernel that has neither camera nor disc, and two of its own.
