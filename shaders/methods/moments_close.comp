@@ -10,6 +10,10 @@
 // has a share of the one before it that is little more than that under the highest sun.
 const Real MORE_THAN_AT_NOON = 1.25;
 const Real LARGEST_SHARE = 0.9998;
+// No mean radiance (of which a table with few altitudes may make ever more) is larger than that deep in air that
+// absorbs nothing under a sun in the zenith: sqrt(3) / (4 pi) H(1), H(1) = 2.91 [Chandrasekhar 1960, secs. 26 and 33].
+// The ground's irradiance is at most pi times the largest, where the sky is as bright as that everywhere.
+const Real LARGEST_MEAN = 0.401;
 
 Vec4 later_orders(int s, int at, int g) {
   Vec4 sum = Vec4(0.0);
@@ -37,6 +41,7 @@ void main() {
     Vec4 to_last = later_orders(noon, at_noon, g) / last_at_noon;
     Vec4 share = min(to_last / (to_last + 1.0) * MORE_THAN_AT_NOON, Vec4(LARGEST_SHARE));
     Vec4 most = last * share / (1.0 - share);
+    if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - moments[sum], Vec4(0.0)));
     allowed = min(most / max(later, Vec4(1e-30)), Vec4(1.0));
   }
   Vec4 lowest = moments[sum] + later * allowed;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
@@ -234,6 +235,50 @@ TEST(Moments, GrowByEveryOrderTowardsAllOfThem) {
   for (int w = 0; w < 3; ++w) EXPECT_NEAR(all[w], before[w], 0.04 * all[w]);
 }
 
+/// The largest difference from many orders of what few orders tell.
+double left_by(int orders, Scene scene) {
+  auto with = [&](int count) {
+    scene.method = chosen("moments", {{"degree", 4}, {"orders", count}});
+    return device().radiance(scene, spread_directions(), false).radiance;
+  };
+  return differences(with(orders), with(64)).back();
+}
+
+TEST(Moments, FollowAllOrdersFromAFewByTheModesThatFade) {
+  Scene thick = clear_scene(0, 30);
+  thick.planet.ground_albedo = 0.9;
+  thick.atmosphere.constituents["air"] = {ExponentialProfile{8},
+                                          Molecules{ScatteringCoefficient{3.0 / 8}}};
+  EXPECT_LT(left_by(16, thick), 5e-3);
+  EXPECT_LT(left_by(4, clear_scene(0, 30)), 1e-3);
+  EXPECT_LT(left_by(4, clear_scene(0, -6)), 2e-3);
+  EXPECT_LT(left_by(6, hazy_scene(0, 10)), 2e-3);
+}
+
+TEST(Moments, MakeNoLightInThickAirWithFewNodes) {
+  // With 6 nodes to a ray each order was a tenth brighter than the one before.
+  Scene scene = clear_scene(0, 34);
+  scene.planet.ground_albedo = 0.85;
+  scene.atmosphere.constituents.clear();
+  scene.atmosphere.constituents["air"] = {ExponentialProfile{8},
+                                          Molecules{ScatteringCoefficient{6.0 / 8}}};
+  scene.method = chosen("moments", {{"degree", 2},
+                                    {"altitudes", 6},
+                                    {"suns", 12},
+                                    {"directions", 6},
+                                    {"azimuths", 4},
+                                    {"steps", 6}});
+  scene.method.scattering_orders = 60;
+  double before = 0;
+  for (int orders : {10, 30, 50, 60}) {
+    scene.method.scattering_orders = orders;
+    double now = device().radiance(scene, {{60, 120}}, false).radiance[0][0];
+    EXPECT_GT(now, before);
+    before = now;
+  }
+  EXPECT_LT(before, 1 / std::numbers::pi);
+}
+
 TEST(Moments, ComeCloserToTheSolutionWithTheirDegreeInHaze) {
   Scene scene = hazy_scene(0, 20);
   Scene walk = scene;
@@ -245,8 +290,8 @@ TEST(Moments, ComeCloserToTheSolutionWithTheirDegreeInHaze) {
                                       {"suns", 14},
                                       {"directions", 12},
                                       {"azimuths", 14},
-                                      {"steps", 8},
-                                      {"orders", 4}});
+                                      {"steps", 16},
+                                      {"orders", 6}});
     auto found = device().radiance(scene, spread_directions(), false).radiance;
     auto d = differences(found, expected);
     print("haze", d);

@@ -454,8 +454,7 @@ const MethodDescription& moments_description() {
             "orders is asked for.",
             {7, 8},
             [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
-           {"Thick air loses light: of an optical depth of 3 over white ground 6 %, of 10 a "
-            "tenth.",
+           {"Thick air loses light: of an optical depth of 3 over white ground 2 %, of 10 5 %.",
             {12},
             [](const SceneTraits& scene) { return scene.depth > 2; }},
            {"Order one, where it is read from a table, is off by 0.5 % for cameras above "
@@ -492,10 +491,11 @@ const MethodDescription& moments_description() {
                  "Gauss nodes on each of those rays; 0 takes what suits the degree, and more "
                  "where the air is thick.",
                  0, 32, 0),
-           whole("orders", "Orders",
-                 "Orders that are traced before a geometric series takes over; 0 takes as many "
-                 "as the air's depth and the ground's albedo ask for.",
-                 0, 64, 0),
+           whole(
+               "orders", "Orders",
+               "Orders that are traced; all later ones follow from how these fade. 0 takes as "
+               "many as the air's depth and the ground's albedo ask for.",
+               0, 64, 0),
            whole(
                "finer", "Finer",
                "1: the degree that follows from the scene is higher by two, and all that "
