@@ -69,6 +69,20 @@ NamedFile file_of(const fs::path& folder, const char* member, const std::string&
   return file;
 }
 
+/// The files of a map.
+struct MapFiles {
+  NamedFile colours;
+  std::optional<NamedFile> heights;
+
+  std::string key() const { return colours.state() + (heights ? " " + heights->state() : ""); }
+};
+
+MapFiles files_of(const fs::path& folder, const MapSurface& surface) {
+  MapFiles files{file_of(folder, "albedo", surface.albedo), {}};
+  if (!surface.height.empty()) files.heights = file_of(folder, "height", surface.height);
+  return files;
+}
+
 // ---- Texels
 
 using Planes = std::vector<std::vector<float>>;
@@ -138,15 +152,15 @@ MapPixels read_or_refuse(const NamedFile& file, Read read) {
   }
 }
 
-std::shared_ptr<const SurfaceImages> load(const std::string& key, const NamedFile& colours,
-                                          const std::optional<NamedFile>& heights) {
+std::shared_ptr<const SurfaceImages> load(const std::string& key, const MapFiles& files) {
   auto images = std::make_shared<SurfaceImages>();
   std::vector<std::uint32_t> texels;
   images->key = key;
-  MapPixels rgb = read_or_refuse(colours, read_colours);
+  MapPixels rgb = read_or_refuse(files.colours, read_colours);
   images->mean_rgb = mean_by_area(rgb);
   images->colours = append(texels, std::move(rgb));
-  if (heights) images->heights = append(texels, read_or_refuse(*heights, read_heights));
+  if (files.heights)
+    images->heights = append(texels, read_or_refuse(*files.heights, read_heights));
   images->texels = std::make_shared<const std::vector<std::uint32_t>>(std::move(texels));
   return images;
 }
@@ -172,19 +186,23 @@ void use_surfaces(const fs::path& folder, std::size_t most_bytes) {
   all.kept.clear();
 }
 
+std::string surface_key(const MapSurface& surface) {
+  Library& all = library();
+  std::lock_guard lock(all.mutex);
+  return files_of(all.folder, surface).key();
+}
+
 std::shared_ptr<const SurfaceImages> surface_images(const MapSurface& surface) {
   Library& all = library();
   std::lock_guard lock(all.mutex);
-  NamedFile colours = file_of(all.folder, "albedo", surface.albedo);
-  std::optional<NamedFile> heights;
-  if (!surface.height.empty()) heights = file_of(all.folder, "height", surface.height);
-  std::string key = colours.state() + (heights ? " " + heights->state() : "");
+  MapFiles files = files_of(all.folder, surface);
+  std::string key = files.key();
   auto found = std::ranges::find(all.kept, key, [](const auto& each) { return each->key; });
   if (found != all.kept.end()) {
     all.kept.splice(all.kept.begin(), all.kept, found);
     return all.kept.front();
   }
-  auto images = load(key, colours, heights);
+  auto images = load(key, files);
   keep(all, images);
   return images;
 }

@@ -31,4 +31,8 @@ void use_surfaces(const std::filesystem::path& folder, std::size_t most_bytes);
 /// there, is none, leads out of the folder or cannot be read as an image
 std::shared_ptr<const SurfaceImages> surface_images(const MapSurface& surface);
 
+/// The `key` that they would have if they were read now; nothing is read. @throws as they do,
+/// but for what is in the files
+std::string surface_key(const MapSurface& surface);
+
 }  // namespace cyanometer

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/encode.h"
+#include "engine/surface/maps.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
 
@@ -68,8 +69,10 @@ std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service
   std::string wavelengths;
   for (const double l : plan.wavelengths_nm) wavelengths += shortest(l) + ",";
   const auto device = service.queue.device();
-  return entity_tag({asked.canonical, plan.method, options_text(plan.options), wavelengths,
-                     version(), device.name, device.driver, device.api_version});
+  const auto* map = std::get_if<MapSurface>(&asked.scene.planet.surface);
+  const std::string files = map ? surface_key(*map) : "";
+  return entity_tag({asked.canonical, files, plan.method, options_text(plan.options),
+                     wavelengths, version(), device.name, device.driver, device.api_version});
 }
 
 PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Service& service,
@@ -119,7 +122,8 @@ nlohmann::json frame_operation() {
   openapi::add_header(
       responses, "Cache-Status",
       "RFC 9211: kept (hit), or rendered, where `collapsed` for another's request.");
-  openapi::add_header(responses, "ETag", "Over scene, plan, version and device.");
+  openapi::add_header(responses, "ETag",
+                      "Over scene, the files of its maps, plan, version and device.");
   openapi::add_header(responses, "Server-Timing", "queue, prepare, render, encode; dur in ms.");
   openapi::add_header(responses, "Cyanometer-Method", "The method that was used.");
   openapi::add_header(responses, "Cyanometer-Options", "Its options: name=value;...");

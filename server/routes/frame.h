@@ -15,7 +15,7 @@ namespace cyanometer {
 struct PlannedFrame {
   SceneRequest asked;
   Plan plan;
-  std::string tag;  ///< over scene, plan, version and device
+  std::string tag;  ///< over scene, the files of its maps, plan, version and device
   double plan_ms = 0;
   std::optional<Place> place = {};  ///< where the plan was waited for
 };

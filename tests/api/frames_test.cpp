@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <future>
 #include <latch>
 #include <set>
 
+#include "engine/surface/maps.h"
 #include "server/queue/single_flight.h"
+#include "tests/accuracy/temporary_folder.h"
 #include "tests/api/client.h"
 
 namespace cyanometer::testing {
@@ -240,6 +243,36 @@ TEST(Frames, ALongOneIsTheSameWhateverWasDoneInBetween) {
     EXPECT_TRUE(answer->body == alone->body) << method;
     EXPECT_GT(gave_way(), before) << method;
   }
+}
+
+TEST(Frames, OverAMapAreOthersOnceItsFileIsAnother) {
+  TemporaryFolder folder;
+  Config config = free_port();
+  config.surfaces = folder.path();
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  auto post = [&](const json& scene) {
+    return client_of(daemon).Post("/v1/render", scene.dump(), "application/json");
+  };
+  auto paint = [&](double sun_deg) {
+    std::ofstream(folder / "world.png", std::ios::binary) << post(scene_at(sun_deg))->body;
+  };
+  json scene = scene_at(40);
+  scene["planet"]["surface"] = {{"type", "map"}, {"albedo", "world.png"}};
+  scene["camera"]["pitch_deg"] = -90;
+  scene["method"] = {{"name", "raymarch"}};
+  paint(60);
+  const auto before = post(scene);
+  ASSERT_EQ(before->status, 200) << before->body;
+  EXPECT_EQ(post(scene)->get_header_value("Cache-Status"), "cyanometer; hit");
+  paint(-3);
+  const auto after = post(scene);
+  EXPECT_EQ(after->get_header_value("Cache-Status"), "cyanometer; fwd=miss");
+  EXPECT_NE(after->get_header_value("ETag"), before->get_header_value("ETag"));
+  EXPECT_NE(after->body, before->body);
+  // The tests after this have no folder, as those before it.
+  use_surfaces({}, std::size_t{64} << 20);
 }
 
 }  // namespace
