@@ -207,8 +207,7 @@ class Planner {
                                          in_.scene.method.max_error.value_or(usual_error));
     }
     const Method& best = method(single_scattering(in_.scene) ? "raymarch" : "moments");
-    auto judge =
-        std::make_unique<QuickJudge>(best, affordable_rung(best), in_.probe, few_, in_.parts);
+    auto judge = quick_judge(best);
     if (!single_scattering(in_.scene) && moments_may_fail(traits_of(problem_))) {
       constexpr double walks = 1 << 15;  // of all rays together, some tenths of a second
       double each = std::exp2(std::ceil(std::log2(walks / std::min(in_.rays, 256.0))));
@@ -216,6 +215,18 @@ class Planner {
                               each, 1 << 30));
     }
     return judge;
+  }
+
+  /// By the finest setting that is quick and within the device's limits in this scene.
+  /// @throws OverLimit where none of its ladder is, but perhaps the first
+  std::unique_ptr<QuickJudge> quick_judge(const Method& best) const {
+    for (std::size_t rung = affordable_rung(best);; --rung) {
+      try {
+        return std::make_unique<QuickJudge>(best, rung, in_.probe, few_, in_.parts);
+      } catch (const OverLimit&) {
+        if (rung == 1) throw;
+      }
+    }
   }
 
   /// The finest setting with which a judgement stays quick; of the first two, where none does.

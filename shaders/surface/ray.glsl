@@ -34,6 +34,7 @@ HeightsPart among_heights(Path path) {
 CONSTANT int MOST_VIEW_STEPS = 400;
 CONSTANT int MOST_SUN_STEPS = 192;
 CONSTANT int HALVINGS = 10;
+CONSTANT Real LEAST_STEP_KM = 1e-4;
 
 // Distance of the ground along a path, from the path's start; ENDLESS where there is none. `before_km`: from
 // the camera to the start. Steps become longer with the gap below them, and once one has ended under the
@@ -44,7 +45,8 @@ Real distance_to_surface(Path path, Real before_km) {
   HeightsPart part = among_heights(path);
   Real above_km = part.from_km;
   Real below_km = ENDLESS;
-  Real t = part.from_km;
+  // Whoever lies on the ground itself looks out of it, not at it: rounding does not decide that.
+  Real t = max(part.from_km, LEAST_STEP_KM);
   int halvings = 0;
   for (int i = 0; i < MOST_VIEW_STEPS && t < part.to_km && halvings <= HALVINGS; ++i) {
     Real width_km = pixel_width_km(before_km + t);
@@ -52,7 +54,7 @@ Real distance_to_surface(Path path, Real before_km) {
                   surface_height_km(path.start + path.direction * t, width_km);
     if (gap_km > 0.0) {
       above_km = t;
-      t += max(max(0.6 * gap_km, 0.5 * width_km), 0.007 * t + 1e-4);
+      t += max(max(0.6 * gap_km, 0.5 * width_km), 0.007 * t + LEAST_STEP_KM);
     } else {
       below_km = t;
     }

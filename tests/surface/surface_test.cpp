@@ -215,6 +215,43 @@ TEST(Heights, CastAShadowAsLongAsTheClosedFormSays) {
   }
 }
 
+/// How high the air above a place is in that shadow: the same triangle, the crest seen from the
+/// planet's centre at an angle towards the sun.
+double shadow_height_km(double radius_km, double height_km, double elevation_rad,
+                        double angle) {
+  return (radius_km + height_km) * std::cos(elevation_rad + angle) / std::cos(elevation_rad) -
+         radius_km;
+}
+
+TEST(Heights, ShadeTheAirAsHighAsTheClosedFormSays) {
+  constexpr double radius_km = 500, height_km = 4, half_km = 8, top_km = 10;
+  Maps maps;
+  maps.write("grey.exr", grey_map(0.5));
+  maps.write("ridge.exr", ridge_map(half_km, radius_km, 2048));
+  for (const char* method : {"raymarch", "path", "bruneton"}) {
+    Scene scene = scene_on(MapSurface{"grey.exr", "ridge.exr", height_km}, 0, 0, method);
+    scene.method.scattering_orders = 1;
+    if (std::string(method) != "path") scene.method.options["view_nodes"] = 24;
+    scene.planet.radius_km = radius_km;
+    // So thin that light from above comes in proportion to the air that is lit.
+    scene.atmosphere.thickness_km = top_km;
+    Molecules thin;
+    thin.optics = ScatteringCoefficient{1e-6};
+    scene.atmosphere.constituents = {{"air", {UniformProfile{}, thin}}};
+    scene.camera.latitude_deg = 0;
+    scene.sun.azimuth_deg = 90;
+    scene.sun.elevation_deg = 8;
+    for (double angle_deg : {1.1, 1.5, 2.0}) {
+      scene.camera.longitude_deg = glm::degrees(crest_longitude(2048)) - angle_deg;
+      double lit = radiance_of(uniform(scene, 0.5), {{90, 0}})[0][1];
+      double dark_km =
+          shadow_height_km(radius_km, height_km, glm::radians(8.0), glm::radians(angle_deg));
+      EXPECT_NEAR(radiance_of(scene, {{90, 0}})[0][1] / lit, 1 - dark_km / top_km, 0.02)
+          << method << ", " << angle_deg << " deg from the crest";
+    }
+  }
+}
+
 TEST(Heights, StandInTheWayOfWhatIsBehindThem) {
   constexpr double radius_km = 500;
   Maps maps;
