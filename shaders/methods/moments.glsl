@@ -159,11 +159,12 @@ Vec4 cubic_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
 
 // The same, kept from overshooting where the values fall off a cliff, as light does where night begins: on
 // either side the curve may bend by four times what it bends on the other and a half more, which is never
-// reached where a logarithm or a ratio is smooth, and stays within a tenth of their range.
+// reached where a logarithm or a ratio is smooth, and stays within a tenth of their range, and a quarter: of a
+// range of fifteen decades a tenth is light out of nothing.
 Vec4 limited_sum(ARRAY(Vec4, value, 4), CubicTaps taps) {
   Vec4 low = min(min(value[0], value[1]), min(value[2], value[3]));
   Vec4 high = max(max(value[0], value[1]), max(value[2], value[3]));
-  Vec4 margin = 0.1 * (high - low);
+  Vec4 margin = min(0.1 * (high - low), Vec4(0.25));
   Vec4 first = value[0] - 2.0 * value[1] + value[2];
   Vec4 last = value[1] - 2.0 * value[2] + value[3];
   Vec4 most = 0.5 + 4.0 * min(abs(first), abs(last));

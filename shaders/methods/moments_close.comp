@@ -42,7 +42,8 @@ void main() {
     Vec4 share = min(to_last / (to_last + 1.0) * MORE_THAN_AT_NOON, Vec4(LARGEST_SHARE));
     Vec4 most = last * share / (1.0 - share);
     if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - moments[sum], Vec4(0.0)));
-    allowed = min(most / max(later, Vec4(1e-30)), Vec4(1.0));
+    // Where the lowest moment has nothing to add, the others have not.
+    allowed = min(most, later) / max(later, Vec4(1e-30));
   }
   Vec4 lowest = moments[sum] + later * allowed;
   moments[sum] = moment_logarithm(lowest);
