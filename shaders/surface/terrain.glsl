@@ -14,9 +14,10 @@ struct Terrain {
   Real grain;      // of the ridges, about -0.5 to 0.5
 };
 
-// How many octaves are coarser than two footprints.
+// How many octaves are coarser than four footprints: what is made of them has edges, and of finer ones it would be
+// a speckle of pixels.
 Real octaves_down_to(Real footprint_km) {
-  Real finest = 0.5 * scene.planet_radius_km / max(footprint_km, 1e-6);
+  Real finest = 0.25 * scene.planet_radius_km / max(footprint_km, 1e-6);
   return clamp(log2(max(finest / FIRST_FREQUENCY, 1.0)) + 1.0, 2.0, Real(OCTAVES));
 }
 
