@@ -8,6 +8,7 @@
 #include "engine/accuracy/error.h"
 #include "engine/fingerprint.h"
 #include "engine/scene/document.h"
+#include "engine/surface/surface_pass.h"
 
 namespace cyanometer {
 namespace {
@@ -32,9 +33,11 @@ Scene undressed(const Scene& scene) {
 json identity_of(const Scene& scene, const std::vector<Direction>& directions) {
   json rays = json::array();
   for (const Direction& ray : directions) rays.push_back({ray.elevation_deg, ray.azimuth_deg});
-  return {{"scene", canonical(undressed(scene))},
-          {"rays", fingerprint(rays.dump())},
-          {"version", version()}};
+  json identity = {{"scene", canonical(undressed(scene))},
+                   {"rays", fingerprint(rays.dump())},
+                   {"version", version()}};
+  if (std::string ground = ground_revision(scene); !ground.empty()) identity["ground"] = ground;
+  return identity;
 }
 
 /// Whether the halves have the shape that the rest relies on.

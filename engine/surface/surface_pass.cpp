@@ -1,6 +1,8 @@
 #include "engine/surface/surface_pass.h"
 
+#include "engine/fingerprint.h"
 #include "engine/methods/tables/fill.h"
+#include "engine/surface/maps.h"
 #include "spirv/surface_distance.spv.h"
 #include "spirv/surface_light.spv.h"
 
@@ -37,6 +39,15 @@ vulkan::Specialization constants(const UploadedScene& scene) {
 }
 
 }  // namespace
+
+std::string ground_revision(const Scene& scene) {
+  const Surface& surface = scene.planet.surface;
+  if (std::holds_alternative<UniformSurface>(surface)) return {};
+  static const std::string code = fingerprint(
+      {reinterpret_cast<const char*>(surface_light_spirv), sizeof(surface_light_spirv)});
+  const auto* map = std::get_if<MapSurface>(&surface);
+  return map ? code + " " + surface_key(*map) : code;
+}
 
 SurfacePass::SurfacePass(vulkan::Device& device)
     : distance_(device, surface_distance_spirv, UploadedScene::bindings + 1,

@@ -6,6 +6,11 @@
 
 namespace cyanometer {
 
+/// What a scene's ground looks like depends on this beside the scene: on the code that makes
+/// it, and the files of a map. Empty where the ground is the same everywhere. @throws as
+/// surface_key
+std::string ground_revision(const Scene& scene);
+
 class SurfacePass {
  public:
   explicit SurfacePass(vulkan::Device& device);

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/image/encode.h"
-#include "engine/surface/maps.h"
+#include "engine/surface/surface_pass.h"
 #include "server/routes/json_answer.h"
 #include "server/routes/openapi.h"
 
@@ -69,10 +69,9 @@ std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service
   std::string wavelengths;
   for (const double l : plan.wavelengths_nm) wavelengths += shortest(l) + ",";
   const auto device = service.queue.device();
-  const auto* map = std::get_if<MapSurface>(&asked.scene.planet.surface);
-  const std::string files = map ? surface_key(*map) : "";
-  return entity_tag({asked.canonical, files, plan.method, options_text(plan.options),
-                     wavelengths, version(), device.name, device.driver, device.api_version});
+  return entity_tag({asked.canonical, ground_revision(asked.scene), plan.method,
+                     options_text(plan.options), wavelengths, version(), device.name,
+                     device.driver, device.api_version});
 }
 
 PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Service& service,

@@ -7,6 +7,7 @@
 
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
+#include "tests/surface/testing.h"
 
 namespace cyanometer {
 namespace {
@@ -90,6 +91,19 @@ TEST(Reference, DoesNotDependOnMethodAndDisplay) {
                  scene({{"method", {{"name", "nishita"}}}, {"image", {{"exposure_ev", 3}}}}),
                  {64, 0.5, 256}, folder.path());
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(Reference, OfAMapIsAnotherOnceItsFileIs) {
+  TemporaryFolder folder;
+  surface_testing::Maps maps;
+  Scene over_map = scene({{"planet", {{"surface", {{"type", "map"}, {"albedo", "m.exr"}}}}}});
+  auto files = [&](double grey) {
+    maps.write("m.exr", surface_testing::grey_map(grey));
+    make_reference(engine(), over_map, {16, 0.5, 256}, folder.path());
+    return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  };
+  EXPECT_EQ(files(0.2), 1);
+  EXPECT_EQ(files(0.25), 2);
 }
 
 }  // namespace
