@@ -11,15 +11,10 @@
 const Real MORE_THAN_AT_NOON = 1.25;
 const Real LARGEST_SHARE = 0.9998;
 // No mean radiance (of which a table with few altitudes may make ever more) is larger than that deep in air that
-// absorbs nothing under a sun in the zenith: sqrt(3) / (4 pi) H(1), H(1) = 2.91 [Chandrasekhar 1960, secs. 26 and 33].
-// The ground's irradiance is at most pi times the largest, where the sky is as bright as that everywhere.
-const Real LARGEST_MEAN = 0.401;
-
-Vec4 later_orders(int s, int at, int g) {
-  Vec4 sum = Vec4(0.0);
-  for (int n = 1; n < push.chunks; ++n) sum = sum + chunk(n, at) * moments[weight_at(n, s) + g];
-  return max(sum, Vec4(0.0));
-}
+// absorbs nothing under a sun in the zenith: sqrt(3) / (4 pi) H(1) = 0.401 where it scatters evenly [Chandrasekhar
+// 1960, chapters III and V], some hundredths more where forward. The ground's irradiance is at most pi times that,
+// where the sky is as bright everywhere.
+const Real LARGEST_MEAN = 0.42;
 
 void main() {
   int index = push.first + int(gl_GlobalInvocationID.x);
@@ -33,12 +28,9 @@ void main() {
   Vec4 later = Vec4(0.0);
   Vec4 allowed = Vec4(1.0);  // of what the series says
   if (push.chunks > 1) {
-    int noon = push.grid.suns - 1;
-    int at_noon = lowest_at(i, noon) + g;
     later = later_orders(s, at, g);
     Vec4 last = max(chunk(push.chunks - 1, at), Vec4(0.0));
-    Vec4 last_at_noon = max(chunk(push.chunks - 1, at_noon), Vec4(1e-30));
-    Vec4 to_last = later_orders(noon, at_noon, g) / last_at_noon;
+    Vec4 to_last = moments[vector_at(0, i, push.grid.suns - 1) + g];  // at noon
     Vec4 share = min(to_last / (to_last + 1.0) * MORE_THAN_AT_NOON, Vec4(LARGEST_SHARE));
     Vec4 most = last * share / (1.0 - share);
     if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - moments[sum], Vec4(0.0)));

@@ -59,4 +59,8 @@ void main() {
     sum = sum - c[n];
     moments[weight_at(n + 1, s) + g] = sum;
   }
+  for (int i = 0; i <= push.grid.altitudes; ++i) {
+    int at = lowest_at(i, s) + g;
+    moments[vector_at(0, i, s) + g] = later_orders(s, at, g) / max(chunk(k, at), Vec4(1e-30));
+  }
 }

@@ -1,6 +1,6 @@
 // All orders after the last one that was traced. Under one sun they are, after a few, a sum of modes over
 // altitude, each of which fades by its own share an order: in thin air one mode that is soon gone, in thick air
-// several that last for hundreds of orders. Reduced rank extrapolation [Smith, Ford and Sidi 1987, sec. 3] finds
+// several that last for hundreds of orders. Reduced rank extrapolation [Smith, Ford and Sidi 1987] finds
 // from d_0 ... d_k, the light of k + 1 chunks of as many orders each, the weights of sum 1 for which
 //
 //   c_0 d_0 + ... + c_k d_k
@@ -25,8 +25,16 @@ Vec4 chunk(int n, int at) {
   return moments[after + at] - moments[earlier_table(n) + at];
 }
 
-// Behind the tables: the vectors that are made orthogonal, and the weights of the chunks.
+// Behind the tables: the vectors that are made orthogonal, the first of which in the end holds all later orders over
+// the last chunk, and the weights of the chunks.
 int vector_at(int n, int i, int s) {
   return earlier_table(push.chunks) + ((n * (push.grid.altitudes + 1) + i) * push.grid.suns + s) * GROUPS;
 }
 int weight_at(int n, int s) { return vector_at(MOST_CHUNKS, 0, s) + n * push.grid.suns * GROUPS; }
+
+// All later orders of a lowest moment or an irradiance.
+Vec4 later_orders(int s, int at, int g) {
+  Vec4 sum = Vec4(0.0);
+  for (int n = 1; n < push.chunks; ++n) sum = sum + chunk(n, at) * moments[weight_at(n, s) + g];
+  return max(sum, Vec4(0.0));
+}
