@@ -15,25 +15,23 @@ namespace {
 
 using nlohmann::json;
 
-double bound(const json& patch) {
-  Scene scene = read_scene(changed(plain_scene(), patch));
+double bound(const json& document) {
+  Scene scene = read_scene(document);
   return brightest_possible(scene, wavelengths_of(scene)).front();
 }
 
-/// Particles alone, so many that no light of the sun comes through, seen towards it.
+/// Particles alone, so many that no light comes through, seen from above.
 json fog(const json& phase) {
-  return {{"method", {{"scattering_orders", 1}}},
-          {"camera", {{"altitude_km", 200}}},
-          {"atmosphere",
-           {{"constituents",
-             {{"air", nullptr},
-              {"ozone", nullptr},
-              {"aerosol",
-               {{"type", "particles"},
-                {"optical_depth", 1e4},
-                {"single_scattering_albedo", 1},
-                {"phase", phase},
-                {"profile", {{"type", "uniform"}}}}}}}}}};
+  return changed(empty_scene(), {{"method", {{"scattering_orders", 1}}},
+                                 {"camera", {{"altitude_km", 200}}},
+                                 {"atmosphere",
+                                  {{"constituents",
+                                    {{"fog",
+                                      {{"type", "particles"},
+                                       {"optical_depth", 1e4},
+                                       {"single_scattering_albedo", 1},
+                                       {"phase", phase},
+                                       {"profile", {{"type", "uniform"}}}}}}}}}});
 }
 
 TEST(Brightest, OfOneOrderIsThePeakOfThePhaseFunctionInTheUnitOfTheSun) {
@@ -51,7 +49,7 @@ TEST(Brightest, IsNearlyReachedByABeamThatComesStraightBack) {
   // much on its way in as on its way out, and half of it is seen.
   static Engine engine;
   static const Watch watch;
-  json scene = changed(plain_scene(), fog({{"type", "henyey_greenstein"}, {"g", -0.6}}));
+  json scene = fog({{"type", "henyey_greenstein"}, {"g", -0.6}});
   scene["sun"]["elevation_deg"] = 90;
   Trial asked(engine, "raymarch", {}, 1, watch);
   double seen = asked.look(scene, {{-90, 0}}).radiance[0][0];

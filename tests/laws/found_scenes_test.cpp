@@ -155,12 +155,10 @@ TEST(FoundScenes, CloudsAreSeenToWhereTheirLightComesFrom) {
 TEST(FoundScenes, DustThatThinsSlowerThanThePlanetIsWideIsAsDenseAsUniformDust) {
   // Its columns were none: light came through, and was made, a thousandfold at each order.
   auto dust = [](const json& profile) {
-    return changed(plain_scene(), {{"camera", {{"altitude_km", 9000}}},
+    return changed(empty_scene(), {{"camera", {{"altitude_km", 9000}}},
                                    {"atmosphere",
                                     {{"constituents",
-                                      {{"air", nullptr},
-                                       {"ozone", nullptr},
-                                       {"aerosol",
+                                      {{"dust",
                                         {{"type", "particles"},
                                          {"optical_depth", 2},
                                          {"phase", {{"type", "henyey_greenstein"}, {"g", 0.5}}},
