@@ -7,9 +7,12 @@
 
 namespace cyanometer {
 
-double order_ratio(const Problem& problem) {
+namespace {
+
+/// By wavelength.
+std::vector<double> scattering_depths(const Problem& problem) {
   std::size_t wavelengths = problem.wavelengths_nm.size();
-  std::vector<double> depth(wavelengths);  // of scattering, less half of what goes on forward
+  std::vector<double> depth(wavelengths);
   for (const Medium& medium : problem.media) {
     double column = column_km(medium.profile, problem.thickness_km);
     auto chi = legendre_coefficients(medium.phase, wavelengths, 1);
@@ -17,8 +20,19 @@ double order_ratio(const Problem& problem) {
       depth[w] += medium.scattering_per_km[w] * column * (1 - std::max(chi[w][1], 0.0) / 2);
     }
   }
+  return depth;
+}
+
+}  // namespace
+
+double scattering_depth(const Problem& problem) {
+  return std::ranges::max(scattering_depths(problem));
+}
+
+double order_ratio(const Problem& problem) {
+  std::vector<double> depth = scattering_depths(problem);
   double largest = 0;
-  for (std::size_t w = 0; w < wavelengths; ++w) {
+  for (std::size_t w = 0; w < depth.size(); ++w) {
     double air = 1.5 * depth[w] / (1 + 1.5 * depth[w]);
     largest = std::max(largest, air + problem.ground_albedo[w] * (1 - air) * air);
   }

@@ -1,14 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "methods/moments_device.glsl"
+#include "methods/later_orders.glsl"
 #include "methods/moments_tail.glsl"
 
 // Adds all later orders to the sum and leaves it as skies read it: one invocation an altitude, a sun and a group
 // of wavelengths; the altitude after the last is the ground's irradiance.
 
-// In the planet's shadow the second order may be brighter than the first, for a while: a chunk of later orders
-// has a share of the one before it that is little more than that under the highest sun.
-const Real MORE_THAN_AT_NOON = 1.25;
 const Real LARGEST_SHARE = 0.9998;
 // No mean radiance (of which a table with few altitudes may make ever more) is larger than that deep in air that
 // absorbs nothing under a sun in the zenith: sqrt(3) / (4 pi) H(1) = 0.401 where it scatters evenly [Chandrasekhar
@@ -31,8 +29,7 @@ void main() {
     later = later_orders(s, at, g);
     Vec4 last = max(chunk(push.chunks - 1, at), Vec4(0.0));
     Vec4 to_last = moments[vector_at(0, i, push.grid.suns - 1) + g];  // at noon
-    Vec4 share = min(to_last / (to_last + 1.0) * MORE_THAN_AT_NOON, Vec4(LARGEST_SHARE));
-    Vec4 most = last * share / (1.0 - share);
+    Vec4 most = most_later_orders(last, to_last, Vec4(LARGEST_SHARE));
     if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - moments[sum], Vec4(0.0)));
     // Where the lowest moment has nothing to add, the others have not.
     allowed = min(most, later) / max(later, Vec4(1e-30));

@@ -1,18 +1,5 @@
-// All orders after the last one that was traced. Under one sun they are, after a few, a sum of modes over
-// altitude, each of which fades by its own share an order: in thin air one mode that is soon gone, in thick air
-// several that last for hundreds of orders. Reduced rank extrapolation [Smith, Ford and Sidi 1987] finds
-// from d_0 ... d_k, the light of k + 1 chunks of as many orders each, the weights of sum 1 for which
-//
-//   c_0 d_0 + ... + c_k d_k
-//
-// is least; where there are but k modes it is nothing, and all later orders together are
-//
-//   -(c_0 d_1 + (c_0 + c_1) d_2 + ... + (c_0 + ... + c_(k-1)) d_k),
-//
-// for k = 1 the geometric series. Lengths are of the lowest moments at all altitudes, each over its sum so far.
-// Include moments_device.glsl before this.
-
-const int MOST_CHUNKS = 4;
+// All later orders of the moments: weights of chunks of orders by the lowest moments at all altitudes and the ground's
+// irradiance, each over its sum so far. Include moments_device.glsl before this, and later_orders.glsl.
 
 // Where the lowest moment lies in a table; after the last altitude it is the ground's irradiance.
 int lowest_at(int i, int s) {

@@ -118,6 +118,40 @@ TEST(Bruneton, LosesNoLightOverWhiteGround) {
   }
 }
 
+/// Over that of the sun: what comes down less what goes up at the ground, and what comes in
+/// less what goes out at the top, whichever is the more.
+double net_flux(Scene scene, double sun_zenith_deg) {
+  double in = std::cos(glm::radians(sun_zenith_deg)), worst = 0;
+  for (double altitude_km : {0.0, scene.atmosphere.thickness_km}) {
+    scene.camera.altitude_km = altitude_km;
+    auto flux = device().radiance(scene, {{-90, 0}}, true).irradiance.value();
+    double net = flux.direct[0] + flux.diffuse_down[0] - flux.diffuse_up[0];
+    worst = std::max(worst, std::abs(net) / in);
+  }
+  return worst;
+}
+
+/// There dozens of orders are hardly less than one another.
+TEST(Bruneton, LosesNoLightOverWhiteGroundInThickAir) {
+  for (double depth : {2.0, 4.0, 6.0}) {
+    Scene scene = rayleigh(depth, 1, 40);
+    use(scene, std::nullopt, small_tables({{"altitudes", 16}, {"samples", 24}}));
+    EXPECT_LT(net_flux(scene, 40), 0.05) << depth;
+  }
+}
+
+/// Its grids have nodes every ten degrees and more; the peak is two degrees wide, and one.
+TEST(Bruneton, MakesNoLightOfNarrowPeaks) {
+  for (double g : {0.95, 0.99}) {
+    Scene scene = rayleigh(1, 1, 40);
+    Constituent haze{ExponentialProfile{1},
+                     Particles{ParticleOpticalDepth{1.0, 1.0}, HenyeyGreenstein{g}}};
+    scene.atmosphere.constituents = {{"haze", haze}};
+    use(scene, std::nullopt, small_tables({{"altitudes", 16}, {"samples", 24}}));
+    EXPECT_LT(net_flux(scene, 40), 0.1) << g;
+  }
+}
+
 TEST(Bruneton, EveryOrderAddsLessThanTheOneBeforeAndAllAreTheirSum) {
   std::vector<Direction> directions = all_around(16);
   auto with_orders = [&](std::optional<int> orders) {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "engine/methods/later_orders.h"
+#include "engine/methods/moments/phase_series.h"
 #include "engine/methods/orders.h"
 #include "engine/methods/raymarch/raymarch.h"
 #include "engine/methods/tables/fill.h"
@@ -10,6 +14,8 @@
 #include "spirv/bruneton_first.spv.h"
 #include "spirv/bruneton_gather.spv.h"
 #include "spirv/bruneton_irradiance.spv.h"
+#include "spirv/bruneton_means.spv.h"
+#include "spirv/bruneton_modes.spv.h"
 #include "spirv/bruneton_order.spv.h"
 #include "spirv/bruneton_redistribute.spv.h"
 #include "spirv/bruneton_refine.spv.h"
@@ -21,7 +27,7 @@ namespace {
 
 constexpr std::uint32_t grid_bindings = UploadedScene::bindings + 2;
 constexpr std::size_t vec4_bytes = 4 * sizeof(float);
-/// Orders computed at the most; those beyond follow from the last two.
+/// Orders computed at the most; those beyond follow from the last ones.
 constexpr int most_orders = 64;
 constexpr int most_pieces = Physics<float>::MOST_PIECES;
 
@@ -43,9 +49,15 @@ struct RangePush {
 struct RefinePush {
   std::int32_t first, end, rows, columns, inner, factor;
 };
+struct MeansPush {
+  std::int32_t first, end, directions, chunks;
+};
+struct ModesPush {
+  std::int32_t first, end, chunks;
+};
 struct OrderPush {
-  std::int32_t first, end, directions, first_order, last_order, tail;
-  float most_ratio;
+  std::int32_t first, end, places, directions, close, chunks;
+  float largest_share;
 };
 
 /// Between an order and the one before: tables may gain light where they resolve a phase
@@ -107,13 +119,35 @@ std::string table_key(const UploadedScene& scene, const Setup& setup) {
          scene.air_key();
 }
 
-/// Up to most_orders of those that are asked for; of all, as many as the options say or the
-/// scene takes. Five are quick, and two dozen come near enough to any air's series.
+/// Up to most_orders of those that are asked for; of all, as many as the options say, or as it
+/// takes until light is everywhere in the air, from where on a few modes fade. Five are quick.
 int orders_to_compute(const Problem& problem, const Setup& setup) {
   int asked = problem.scattering_orders;
   if (asked >= 0) return std::min(asked, most_orders);
   if (setup.orders > 0) return std::max(setup.orders, 2);
-  return std::clamp(orders_until_geometric(problem), 5, 24);
+  double through = 3 + 6 * std::min<double>(scattering_depth(problem), most_orders);
+  return std::clamp(std::min(orders_until_geometric(problem), static_cast<int>(through)), 5,
+                    most_orders);
+}
+
+/// The problem with peaks as wide as the source's directions can follow, where they are
+/// narrower: they would fall between its nodes or be taken for as wide as one, and between two
+/// suns be where they are under neither.
+std::optional<Problem> with_wide_peaks(Problem problem, const Setup& setup) {
+  // Half of what Henyey and Greenstein's function scatters stays within sqrt(3) (1 - g) rad,
+  // which is more than a node then.
+  double largest_g = std::max(1 - 0.75 * std::numbers::pi / (setup.source_zeniths - 1), 0.0);
+  bool any = false;
+  for (Medium& medium : problem.media) {
+    double g = 0;
+    for (const auto& series :
+         legendre_coefficients(medium.phase, problem.wavelengths_nm.size(), 1))
+      g = std::abs(series[1]) > std::abs(g) ? series[1] : g;
+    if (std::abs(g) <= largest_g) continue;
+    any = true;
+    medium.phase = HenyeyGreenstein{std::copysign(largest_g, g)};
+  }
+  return any ? std::optional(std::move(problem)) : std::nullopt;
 }
 
 }  // namespace
@@ -164,7 +198,9 @@ TableMaker::TableMaker(vulkan::Device& device)
       redistribute_(device, bruneton_redistribute_spirv, grid_bindings + 1, sizeof(SlicePush)),
       source_(device, bruneton_source_spirv, grid_bindings + 3, sizeof(SlicePush)),
       irradiance_(device, bruneton_irradiance_spirv, grid_bindings + 2, sizeof(RangePush)),
-      order_(device, bruneton_order_spirv, grid_bindings + 4, sizeof(OrderPush)),
+      order_(device, bruneton_order_spirv, grid_bindings + 5, sizeof(OrderPush)),
+      means_(device, bruneton_means_spirv, grid_bindings + 5, sizeof(MeansPush)),
+      modes_(device, bruneton_modes_spirv, grid_bindings + 1, sizeof(ModesPush)),
       refine_(device, bruneton_refine_spirv, grid_bindings + 2, sizeof(RefinePush)),
       single_(device, bruneton_single_spirv, grid_bindings + 3, sizeof(CellsPush)) {}
 
@@ -299,60 +335,83 @@ struct TableMaker::OrderSum {
       return vec4_bytes * groups * altitudes * suns * zeniths * azimuths;
     }
   };
-  OrderSum(vulkan::Device& device, const vulkan::Buffer& result_, const Size& size_,
-           const Setup& setup)
-      : result(result_),
+  OrderSum(Tracer& tracer_, const vulkan::Buffer& result_, const Size& size_,
+           const Setup& setup, int chunks)
+      : tracer(tracer_),
+        result(result_),
         size(size_),
-        orders{vulkan::Buffer{device, size.bytes(), vulkan::Memory::device},
-               vulkan::Buffer{device, size.bytes(), vulkan::Memory::device}},
-        sum(device, size.bytes(), vulkan::Memory::device),
-        encoded(device, size.bytes(), vulkan::Memory::device),
-        in_directions(device,
+        order(tracer.device, size.bytes(), vulkan::Memory::device),
+        sum(tracer.device, size.bytes(), vulkan::Memory::device),
+        earlier(tracer.device, size.bytes() * std::max(chunks, 1), vulkan::Memory::device),
+        encoded(tracer.device, size.bytes(), vulkan::Memory::device),
+        in_directions(tracer.device,
                       size.bytes() / size.directions() * setup.refined(size.zeniths) *
                           setup.refined(size.azimuths),
-                      vulkan::Memory::device) {}
+                      vulkan::Memory::device) {
+    tracer.commands.fill(sum, 0);
+    tracer.commands.fill(earlier, 0);
+  }
 
-  const vulkan::Buffer& now() const { return orders[count % 2]; }
-  const vulkan::Buffer& previous() const { return orders[(count + 1) % 2]; }
+  /// Keeps the sum so far, where a chunk of orders begins.
+  void keep(int chunk) {
+    tracer.commands.copy({sum, 0, size.bytes()}, {earlier, chunk * size.bytes(), size.bytes()});
+  }
 
+  Tracer& tracer;
   const vulkan::Buffer& result;
   Size size;
-  std::array<vulkan::Buffer, 2> orders;
-  vulkan::Buffer sum, encoded;
+  vulkan::Buffer order, sum;
+  vulkan::Buffer earlier;  ///< sums, where chunks of orders begin
+  vulkan::Buffer encoded;
   vulkan::Buffer in_directions;  ///< refined in directions alone
-  int count = 0;
 };
 
-/// Whether an order is the last of a sum, and how many are beyond it, -1 all.
-struct TableMaker::Orders {
-  bool last;
-  int beyond;
+/// By how much chunks of orders weigh in all that come after them.
+struct TableMaker::Closing {
+  LaterOrders later;
+  float largest_share;  ///< of a chunk in the one before
+  vulkan::Buffer chunks;
 };
 
-void TableMaker::add_order(const Work& work, const UploadedRays& rays, OrderSum& sum,
-                           const Orders& orders) {
+void TableMaker::weigh_chunks(const Work& work, const UploadedRays& rays,
+                              const OrderSum& source, const OrderSum& irradiance,
+                              const Closing& closing) {
+  int directions = source.size.directions(), chunks = closing.later.chunks;
+  int sums = rays.rays.grid.suns * work.scene.groups();
+  work.fill(means_, rays,
+            {source.sum, source.earlier, irradiance.sum, irradiance.earlier, closing.chunks},
+            std::int64_t{1} * (rays.rays.grid.altitudes + 1) * sums, chunks * directions,
+            MeansPush{0, 0, directions, chunks});
+  work.fill(modes_, rays, {closing.chunks}, sums, 8 * chunks * chunks * source.size.altitudes,
+            ModesPush{0, 0, chunks});
+}
+
+void TableMaker::add_or_close(const Work& work, const UploadedRays& rays, const OrderSum& sum,
+                              const Closing& closing, Leave what) {
   const OrderSum::Size& size = sum.size;
-  int tail = orders.last && sum.count > 0 ? orders.beyond : 0;
-  work.fill(order_, rays, {sum.now(), sum.previous(), sum.sum, sum.encoded},
+  work.fill(order_, rays, {sum.order, sum.sum, sum.earlier, closing.chunks, sum.encoded},
             std::int64_t{1} * size.groups * size.altitudes * size.directions(), 2 * size.suns,
-            OrderPush{0, 0, size.directions(), sum.count == 0, orders.last, tail,
-                      static_cast<float>(most_ratio(work.scene.problem()))});
-  ++sum.count;
-  auto refine = [&](const vulkan::Buffer& from, const vulkan::Buffer& to, int rows, int columns,
-                    int inner) {
+            OrderPush{0, 0, size.altitudes, size.directions(), what == Leave::all_orders,
+                      closing.later.chunks, closing.largest_share});
+}
+
+void TableMaker::refine(const Work& work, const UploadedRays& rays, const OrderSum& sum) {
+  const OrderSum::Size& size = sum.size;
+  auto fill = [&](const vulkan::Buffer& from, const vulkan::Buffer& to, int rows, int columns,
+                  int inner) {
     constexpr int evaluations = 16;
     work.fill(refine_, rays, {from, to}, static_cast<std::int64_t>(to.size() / vec4_bytes),
               evaluations, RefinePush{0, 0, rows, columns, inner, work.setup.refinement});
   };
-  refine(sum.encoded, sum.in_directions, size.zeniths, size.azimuths, 1);
-  refine(sum.in_directions, sum.result, size.altitudes, size.suns,
-         work.setup.refined(size.zeniths) * work.setup.refined(size.azimuths));
+  fill(sum.encoded, sum.in_directions, size.zeniths, size.azimuths, 1);
+  fill(sum.in_directions, sum.result, size.altitudes, size.suns,
+       work.setup.refined(size.zeniths) * work.setup.refined(size.azimuths));
 }
 
 void TableMaker::gather(const Work& work, const UploadedRays& rays, const SourceTables& from,
-                        Leave leave, const vulkan::Buffer& to) {
+                        Gather what, const vulkan::Buffer& to) {
   int groups = work.scene.groups();
-  bool view = leave == Leave::view_without;
+  bool view = what == Gather::view_without_ground;
   work.fill(gather_, rays, {rays.cell_values, from.source, from.irradiance, to},
             rays.rays.texels(), for_gathering(rays.cells, groups),
             GatherPush{0, 0, rays.cells, !view, view});
@@ -367,24 +426,40 @@ std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
   vulkan::Buffer radiance = scattering_buffer(device, rays.rays, groups);
   auto tables = std::make_shared<SourceTables>(device, grid, groups);
   const Setup& setup = work.setup;
+  int last = orders_to_compute(problem, setup);
+  bool ends = problem.scattering_orders >= 0 && problem.scattering_orders <= last;
+  const LaterOrders later = ends ? LaterOrders{} : LaterOrders::after(last - 1);
+  const Closing closing{
+      later,
+      static_cast<float>(std::pow(most_ratio(problem), later.each)),
+      {device,
+       vec4_bytes * LaterOrders::most_chunks * (setup.altitudes + 2) * setup.suns * groups,
+       vulkan::Memory::device}};
   OrderSum source(
-      device, tables->source,
-      {groups, setup.altitudes, setup.suns, setup.source_zeniths, setup.source_azimuths},
-      setup);
-  OrderSum irradiance(device, tables->irradiance, {groups, 1, setup.suns, 1, 1}, setup);
+      work.tracer, tables->source,
+      {groups, setup.altitudes, setup.suns, setup.source_zeniths, setup.source_azimuths}, setup,
+      later.chunks);
+  OrderSum irradiance(work.tracer, tables->irradiance, {groups, 1, setup.suns, 1, 1}, setup,
+                      later.chunks);
 
-  int last = orders_to_compute(problem, work.setup);
-  int asked = problem.scattering_orders;
-  int beyond = asked < 0 ? -1 : asked - last;
   find_first_order(work, rays, radiance);
   for (int order = 2;; ++order) {
-    find_irradiance(work, rays, radiance, irradiance.now());
-    add_order(work, rays, irradiance, {order == last, beyond});
-    find_source(work, rays, radiance, source.now());
-    add_order(work, rays, source, {order == last, beyond});
-    if (order == last) return tables;
-    gather(work, rays, *tables, Leave::radiance_with_ground, radiance);
+    find_irradiance(work, rays, radiance, irradiance.order);
+    find_source(work, rays, radiance, source.order);
+    for (OrderSum* sum : {&irradiance, &source}) {
+      add_or_close(work, rays, *sum, closing, Leave::one_order);
+      if (auto chunk = later.begins_after(order, last)) sum->keep(*chunk);
+    }
+    if (order == last) break;
+    for (OrderSum* sum : {&irradiance, &source}) refine(work, rays, *sum);
+    gather(work, rays, *tables, Gather::radiance_with_ground, radiance);
   }
+  if (later.chunks > 0) weigh_chunks(work, rays, source, irradiance, closing);
+  for (OrderSum* sum : {&irradiance, &source}) {
+    add_or_close(work, rays, *sum, closing, Leave::all_orders);
+    refine(work, rays, *sum);
+  }
+  return tables;
 }
 
 std::shared_ptr<const ViewTable> TableMaker::make_view(Work work) {
@@ -398,7 +473,7 @@ std::shared_ptr<const ViewTable> TableMaker::make_view(Work work) {
   UploadedRays uploaded =
       cut(work, rays, work.setup.gathered_view ? work.setup.view_cells : work.setup.cells);
   vulkan::Buffer values = scattering_buffer(work.tracer.device, rays, work.scene.groups());
-  gather(work, uploaded, *tables, Leave::view_without, values);
+  gather(work, uploaded, *tables, Gather::view_without_ground, values);
   return std::make_shared<ViewTable>(std::move(uploaded), std::move(values));
 }
 
@@ -425,7 +500,10 @@ std::shared_ptr<const SourceTables> TableMaker::source(Tracer& tracer,
                                                        const UploadedScene& scene,
                                                        const Setup& setup) {
   return tracer.tables.get<SourceTables>("bruneton source " + table_key(scene, setup), [&] {
-    return make_source({tracer, scene, setup});
+    const std::optional<Problem> wide = with_wide_peaks(scene.problem(), setup);
+    if (!wide) return make_source({tracer, scene, setup});
+    UploadedScene uploaded(tracer.device, *wide);
+    return make_source({tracer, uploaded, setup});
   });
 }
 

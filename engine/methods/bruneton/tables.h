@@ -94,15 +94,20 @@ class TableMaker {
   void find_irradiance(const Work& work, const UploadedRays& rays,
                        const vulkan::Buffer& radiance, const vulkan::Buffer& to);
   struct OrderSum;
-  struct Orders;
-  void add_order(const Work& work, const UploadedRays& rays, OrderSum& sum,
-                 const Orders& orders);
-  enum class Leave { radiance_with_ground, view_without };
-  void gather(const Work& work, const UploadedRays& rays, const SourceTables& from, Leave leave,
+  struct Closing;
+  void weigh_chunks(const Work& work, const UploadedRays& rays, const OrderSum& source,
+                    const OrderSum& irradiance, const Closing& closing);
+  enum class Leave { one_order, all_orders };
+  /// Leaves what is to be interpolated: an order, which is added to the sum, or the closed sum.
+  void add_or_close(const Work& work, const UploadedRays& rays, const OrderSum& sum,
+                    const Closing& closing, Leave what);
+  void refine(const Work& work, const UploadedRays& rays, const OrderSum& sum);
+  enum class Gather { radiance_with_ground, view_without_ground };
+  void gather(const Work& work, const UploadedRays& rays, const SourceTables& from, Gather what,
               const vulkan::Buffer& to);
 
-  vulkan::Kernel cells_, first_, gather_, redistribute_, source_, irradiance_, order_, refine_,
-      single_;
+  vulkan::Kernel cells_, first_, gather_, redistribute_, source_, irradiance_, order_, means_,
+      modes_, refine_, single_;
 };
 
 }  // namespace cyanometer::bruneton

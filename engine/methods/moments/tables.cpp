@@ -1,9 +1,9 @@
 #include "engine/methods/moments/tables.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
+#include "engine/methods/later_orders.h"
 #include "engine/methods/moments/grid.h"
 #include "spirv/moments_close.spv.h"
 #include "spirv/moments_first.spv.h"
@@ -42,26 +42,6 @@ int slots_of(int degree) { return (degree + 1) * (degree + 2) / 2 + 1; }
 
 constexpr std::size_t value_bytes = 16;
 
-/// Chunks of orders by which all later ones are told (shaders/methods/moments_tail.glsl).
-struct LaterOrders {
-  static constexpr int most_chunks = 4;
-  int chunks = 0;  ///< one more than the modes that are told apart; none where orders end
-  int each = 1;    ///< orders of a chunk
-
-  /// Modes lie the further apart the more orders a chunk has.
-  static LaterOrders of(const MomentSettings& settings) {
-    if (!settings.tail) return {};
-    int chunks = settings.orders >= 24 ? 4 : settings.orders >= 4 ? 3 : 2;
-    return {chunks, std::max(settings.orders / (chunks + 2), 1)};
-  }
-  /// Which chunk begins after an order, if one does.
-  std::optional<int> begins_after(int order, int orders) const {
-    int left = orders - order;
-    bool begins = left > 0 && left % each == 0 && left / each <= chunks;
-    return begins ? std::optional(chunks - left / each) : std::nullopt;
-  }
-};
-
 vulkan::Specialization solution_constants(const UploadedScene& scene,
                                           const MomentSettings& settings, bool particles) {
   vulkan::Specialization constants = moment_constants(scene, settings.degree, particles);
@@ -77,7 +57,7 @@ class Solution {
       : tracer_(tracer),
         scene_(scene),
         settings_(settings),
-        later_(LaterOrders::of(settings)),
+        later_(settings.tail ? LaterOrders::after(settings.orders) : LaterOrders{}),
         grid_(tables.grid),
         tables_(tables),
         constants_(solution_constants(scene, settings, series.particles)),
@@ -129,7 +109,7 @@ class Solution {
 
   /// Keeps the sum so far where a chunk begins.
   void keep(int order) {
-    if (std::optional<int> chunk = later_.begins_after(order, settings_.orders)) {
+    if (auto chunk = later_.begins_after(order, settings_.orders)) {
       std::size_t table = table_values(grid_.altitudes) * value_bytes;
       tracer_.commands.copy(
           {moments_, table, table},

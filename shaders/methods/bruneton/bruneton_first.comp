@@ -21,14 +21,12 @@ layout(push_constant) uniform Push {
 // The ray of a texel; `scene` gets the texel's sun, at azimuth 0.
 Path path_of(Texel texel) {
   Real mu_s = node_sun(texel.sun);
-  scene.sun_direction = Vec4(sqrt(max(1.0 - mu_s * mu_s, 0.0)), 0.0, mu_s, 0.0);
+  scene.sun_direction = Vec4(direction_of(mu_s, 0.0), 0.0);
   Path path;
   path.altitude_km = node_altitude(texel.altitude);
   path.mu = node_cosine(texel.altitude, texel.zenith);
   path.start = Vec3(0.0, 0.0, scene.planet_radius_km + path.altitude_km);
-  Real sine = sqrt(max(1.0 - path.mu * path.mu, 0.0));
-  Real azimuth = node_azimuth(texel.azimuth);
-  path.direction = Vec3(sine * cos(azimuth), sine * sin(azimuth), path.mu);
+  path.direction = direction_of(path.mu, node_azimuth(texel.azimuth));
   path.meets_ground = node_meets_ground(grid, path.altitude_km, texel.zenith, path.mu);
   path.length_km = path_length(path.altitude_km, path.mu, path.meets_ground);
   return path;

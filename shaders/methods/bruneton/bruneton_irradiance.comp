@@ -25,9 +25,7 @@ void main() {
     Real mu = node_cosine(0, z);
     if (mu <= 0.0) continue;
     for (int k = 0; k < grid.azimuths; ++k) {
-      bool at_end = k == 0 || k == grid.azimuths - 1;
-      Real weight =
-          node_weight(0, z) * mu * (at_end ? 1.0 : 2.0) * PI / Real(grid.azimuths - 1);
+      Real weight = node_solid_angle(0, z, k) * mu;
       int texel = (s * grid.zeniths + z) * grid.azimuths + k;
       UNROLL for (int g = 0; g < GROUPS; ++g) {
         sum[g] = sum[g] + weight * radiances[g * texels() + texel];

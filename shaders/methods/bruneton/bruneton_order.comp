@@ -1,41 +1,47 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Adds one order of a table to the sum of the orders, and writes what is to be interpolated: that order
-// alone, or the sum with what the orders beyond are worth. An invocation is all suns of one place and
-// direction.
+// Adds one order of a table to the sum of the orders and writes it as what is interpolated; or closes the sum with
+// what all later orders are worth, and writes that. An invocation is all suns of one place and direction.
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
+#include "methods/later_orders.glsl"
+#include "methods/bruneton/chunks.glsl"
 layout(std430, binding = FREE) restrict readonly buffer OrderBuffer {
   Vec4 order_values[];
 };
-layout(std430, binding = FREE + 1) restrict readonly buffer PreviousBuffer {
-  Vec4 previous_values[];
-};
-layout(std430, binding = FREE + 2) restrict buffer SumBuffer { Vec4 sums[]; };
-layout(std430, binding = FREE + 3) restrict writeonly buffer ResultBuffer {
+layout(std430, binding = FREE + 1) restrict buffer SumBuffer { Vec4 sums[]; };
+layout(std430, binding = FREE + 2) restrict readonly buffer EarlierBuffer { Vec4 earlier_sums[]; };
+layout(std430, binding = FREE + 3) restrict readonly buffer ChunkBuffer { Vec4 chunk_values[]; };
+layout(std430, binding = FREE + 4) restrict writeonly buffer ResultBuffer {
   Vec4 results[];
 };
 
 layout(push_constant) uniform Push {
   int first_item;
   int end_item;
+  int places;      // of the table: altitudes
   int directions;  // of the table
-  int first_order; // begins the sum
-  int last_order;  // writes the sum
-  int tail;        // orders beyond the last, -1 all
-  float most_ratio;
+  int close;       // the sum, instead of adding an order
+  int chunks;      // of orders, by which all later ones are told; 0 where none are added
+  float largest_share;  // of a chunk in the one before
 } push;
 
 // Two neighbours in the sun's direction differ by a factor that changes from node to node by this
 // much at the most: where the air sees no light at all, a cubic through its logarithm would swing.
 const Real MOST_BEND = 2.0;
 
-// The orders beyond as a geometric series of the ratio of the last two.
-Vec4 beyond(Vec4 last, Vec4 previous) {
-  if (push.tail == 0) return Vec4(0.0);
-  Vec4 ratio = clamp(last / max(previous, Vec4(1e-30)), Vec4(0.0), Vec4(push.most_ratio));
-  Vec4 cut = push.tail < 0 ? Vec4(0.0) : pow(max(ratio, Vec4(1e-30)), Vec4(Real(push.tail)));
-  return last * ratio * (1.0 - cut) / (1.0 - ratio);
+Vec4 chunk(int n, int texel) {
+  int table = GROUPS * push.places * grid.suns * push.directions;
+  Vec4 after = n + 1 < push.chunks ? earlier_sums[(n + 1) * table + texel] : sums[texel];
+  return after - earlier_sums[n * table + texel];
+}
+
+Vec4 later_orders(int texel, int sun, int group) {
+  Vec4 later = Vec4(0.0);
+  for (int n = 1; n < push.chunks; ++n) {
+    later = later + chunk(n, texel) * chunk_values[chunk_weight_at(n, sun) + group];
+  }
+  return max(later, Vec4(0.0));
 }
 
 void main() {
@@ -43,15 +49,22 @@ void main() {
   if (item >= push.end_item) return;
   int direction = item % push.directions;
   int place = item / push.directions;  // and group
+  int group = place / push.places;
   Vec4 above = Vec4(0.0);
   Vec4 slope = Vec4(0.0);
+  Vec4 to_last = Vec4(0.0);  // of all later orders, under the highest sun
   for (int s = grid.suns - 1; s >= 0; --s) {
     int texel = (place * grid.suns + s) * push.directions + direction;
-    Vec4 value = order_values[texel];
-    Vec4 sum = value;
-    if (push.first_order == 0) sum = sum + sums[texel];
-    sums[texel] = sum;
-    if (push.last_order != 0) value = sum + beyond(value, previous_values[texel]);
+    Vec4 value = sums[texel];
+    if (push.close == 0) {
+      value = order_values[texel];
+      sums[texel] = sums[texel] + value;
+    } else if (push.chunks > 1) {
+      Vec4 last = max(chunk(push.chunks - 1, texel), Vec4(0.0));
+      Vec4 later = later_orders(texel, s, group);
+      if (s == grid.suns - 1) to_last = later / max(last, Vec4(1e-30));
+      value = value + min(later, most_later_orders(last, to_last, Vec4(push.largest_share)));
+    }
     Vec4 code = encoded(value);
     if (LOGARITHMIC && s < grid.suns - 1) {
       code = max(code, above + (s < grid.suns - 2 ? slope : Vec4(0.0)) - MOST_BEND);

@@ -18,11 +18,6 @@ layout(push_constant) uniform Push {
   int out_azimuths;
 } push;
 
-Vec3 towards(Real mu, Real azimuth) {
-  Real sine = sqrt(max(1.0 - mu * mu, 0.0));
-  return Vec3(sine * cos(azimuth), sine * sin(azimuth), mu);
-}
-
 // Scattering coefficient times phase function, 1/(km sr); in the end over their sum without phase.
 void add_phases(Vec3 from, Vec3 to, ARRAY(Real, density, MEDIA_SIZE),
                 INOUT_ARRAY(Vec4, sum, GROUPS_SIZE)) {
@@ -70,17 +65,15 @@ void main() {
   int k = incoming % grid.azimuths;
   Real mu = node_cosine(push.altitude, zenith);
   Real in_azimuth = node_azimuth(k);
-  bool at_end = k == 0 || k == grid.azimuths - 1;
-  Real solid_angle = node_weight(push.altitude, zenith) * (at_end ? 1.0 : 2.0) * PI /
-                     Real(grid.azimuths - 1);
-  Vec3 to = towards(cos(out_zenith), out_azimuth);
+  Real solid_angle = node_solid_angle(push.altitude, zenith, k);
+  Vec3 to = direction_of(cos(out_zenith), out_azimuth);
 
   Real density[MEDIA_SIZE];
   scatterers_at(node_altitude(push.altitude), density);
   Vec4 sum[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) sum[g] = Vec4(0.0);
-  add_phases(towards(mu, in_azimuth), to, density, sum);
-  add_phases(towards(mu, -in_azimuth), to, density, sum);
+  add_phases(direction_of(mu, in_azimuth), to, density, sum);
+  add_phases(direction_of(mu, -in_azimuth), to, density, sum);
   int pairs = grid.zeniths * grid.azimuths * push.out_zeniths * push.out_azimuths;
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 coefficient = Vec4(0.0);

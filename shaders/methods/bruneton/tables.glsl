@@ -23,6 +23,17 @@ Real node_weight(int a, int z) {
 }
 Real node_azimuth(int k) { return PI * Real(k) / Real(max(grid.azimuths - 1, 1)); }
 
+Vec3 direction_of(Real mu, Real azimuth) {
+  Real sine = sqrt(max(1.0 - mu * mu, 0.0));
+  return Vec3(sine * cos(azimuth), sine * sin(azimuth), mu);
+}
+
+// What a node of direction stands for in an integral, sr: both sides, left and right of the sun, together.
+Real node_solid_angle(int a, int z, int k) {
+  bool at_end = k == 0 || k == grid.azimuths - 1;
+  return node_weight(a, z) * (at_end ? 1.0 : 2.0) * PI / Real(grid.azimuths - 1);
+}
+
 // On the ground what looks down has come to it, along the horizon too.
 Real path_length(Real h, Real mu, bool below) {
   if (below) return h > 0.0 ? distance_to_ground(h, mu) : 0.0;
