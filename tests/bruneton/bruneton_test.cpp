@@ -143,12 +143,12 @@ TEST(Bruneton, LosesNoLightOverWhiteGroundInThickAir) {
 /// Its grids have nodes every ten degrees and more; the peak is two degrees wide, and one.
 TEST(Bruneton, MakesNoLightOfNarrowPeaks) {
   for (double g : {0.95, 0.99}) {
-    Scene scene = rayleigh(1, 1, 40);
+    Scene scene = rayleigh(1, 1, 57);
     Constituent haze{ExponentialProfile{1},
                      Particles{ParticleOpticalDepth{1.0, 1.0}, HenyeyGreenstein{g}}};
     scene.atmosphere.constituents = {{"haze", haze}};
-    use(scene, std::nullopt, small_tables({{"altitudes", 16}, {"samples", 24}}));
-    EXPECT_LT(net_flux(scene, 40), 0.1) << g;
+    use(scene, std::nullopt, with_options({{"altitudes", 8}, {"suns", 16}}));
+    EXPECT_LT(net_flux(scene, 57), 0.15) << g;
   }
 }
 

@@ -133,32 +133,33 @@ MethodDescription describe() {
       .summary =
           "All orders, each from the one before, in tables over altitude, view, sun and the "
           "azimuth between them. They hold for every camera and every sun.",
-      .limits = {{"From the second order on light is parallel and comes from the centre of the "
-                  "disc.",
-                  {17},
-                  [](const SceneTraits& scene) { return scene.sun_diameter_deg > 1; }},
-                 {"In haze of an optical depth of 0.1 under a low sun one ray in a hundred is "
-                  "off by 2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun "
-                  "of -12 deg.",
-                  {2, 3, 8, 10},
-                  [](const SceneTraits& scene) { return scene.sun_deg < 10; }},
-                 {"Ground within a tenth of a degree of the horizon of a camera below 10 m is "
-                  "up to 8 % too bright.",
-                  {1, 2},
-                  [](const SceneTraits& scene) { return scene.altitude_km < 0.01; }},
-                 {"Narrow forward peaks (g above 0.9) are wider than they are from the second "
-                  "order on, and need more zeniths and azimuths.",
-                  {13, 14},
-                  [](const SceneTraits& scene) { return scene.asymmetry > 0.85; }},
-                 {"Air of an optical depth of 3 and more loses or gains a fifth of the light "
-                  "and more.",
-                  {12, 22},
-                  [](const SceneTraits& scene) { return scene.depth > 2; }},
-                 {"Where the ground differs from place to place, the light that it sends back "
-                  "into the air is that of its mean albedo, slopes and the sea see an even "
-                  "sky, and heights shade the air in order one alone.",
-                  {},
-                  [](const SceneTraits& scene) { return scene.varied_ground; }}},
+      .limits =
+          {{"From the second order on light is parallel and comes from the centre of the "
+            "disc.",
+            {17},
+            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 1; }},
+           {"In haze of an optical depth of 0.1 under a low sun one ray in a hundred is "
+            "off by 2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun "
+            "of -12 deg.",
+            {2, 3, 8, 10},
+            [](const SceneTraits& scene) { return scene.sun_deg < 10; }},
+           {"Ground within a tenth of a degree of the horizon of a camera below 10 m is "
+            "up to 8 % too bright.",
+            {1, 2},
+            [](const SceneTraits& scene) { return scene.altitude_km < 0.01; }},
+           {"Forward peaks that are narrower than the source's directions lie apart (g above "
+            "0.86 at the defaults) are as wide as these from the second order on.",
+            {13, 14},
+            [](const SceneTraits& scene) { return scene.asymmetry > 0.85; }},
+           {"Air of an optical depth of 7 and more loses or gains some per cent of the "
+            "light, beyond that of 10 a tenth and more.",
+            {12, 22},
+            [](const SceneTraits& scene) { return scene.depth > 5; }},
+           {"Where the ground differs from place to place, the light that it sends back "
+            "into the air is that of its mean albedo, slopes and the sea see an even "
+            "sky, and heights shade the air in order one alone.",
+            {},
+            [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options =
           {nodes("orders", "Orders computed",
                  "Of all orders those that are computed; the others are a geometric series. 0: "

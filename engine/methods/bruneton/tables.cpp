@@ -134,9 +134,11 @@ int orders_to_compute(const Problem& problem, const Setup& setup) {
 /// narrower: they would fall between its nodes or be taken for as wide as one, and between two
 /// suns be where they are under neither.
 std::optional<Problem> with_wide_peaks(Problem problem, const Setup& setup) {
-  // Half of what Henyey and Greenstein's function scatters stays within sqrt(3) (1 - g) rad,
-  // which is more than a node then.
-  double largest_g = std::max(1 - 0.75 * std::numbers::pi / (setup.source_zeniths - 1), 0.0);
+  // Half of what Henyey and Greenstein's function scatters stays within sqrt(3) (1 - g) rad:
+  // not quite from one node to the next, then.
+  double apart_rad = std::numbers::pi / 2 *
+                     (1.0 / (setup.source_zeniths - 1) + 1.0 / (setup.source_azimuths - 1));
+  double largest_g = std::max(1 - apart_rad / 3, 0.0);
   bool any = false;
   for (Medium& medium : problem.media) {
     double g = 0;
