@@ -162,8 +162,8 @@ MethodDescription describe() {
             [](const SceneTraits& scene) { return scene.varied_ground; }}},
       .options =
           {nodes("orders", "Orders computed",
-                 "Of all orders those that are computed; the others are a geometric series. 0: "
-                 "as many as the air's depth and the ground's albedo ask for, five at least; 1 "
+                 "Of all orders those that are computed; the others follow from the last of "
+                 "them. 0: as many as light takes to get through the air, five at least; 1 "
                  "counts as 2.",
                  0, 64, 0),
            nodes("altitudes", "Altitudes", "Nodes from the ground to the top.", 4, 128, 16),

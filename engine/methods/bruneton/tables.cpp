@@ -344,7 +344,8 @@ struct TableMaker::OrderSum {
         size(size_),
         order(tracer.device, size.bytes(), vulkan::Memory::device),
         sum(tracer.device, size.bytes(), vulkan::Memory::device),
-        earlier(tracer.device, size.bytes() * std::max(chunks, 1), vulkan::Memory::device),
+        earlier(table_buffer(tracer.device, size.bytes() / vec4_bytes * chunks,
+                             "source_zeniths", "the sums of earlier orders")),
         encoded(tracer.device, size.bytes(), vulkan::Memory::device),
         in_directions(tracer.device,
                       size.bytes() / size.directions() * setup.refined(size.zeniths) *

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// What chunks of orders add to the source, meant over its directions, and to the ground's irradiance, over their
-// sums. An invocation is an altitude, or after the last one the ground, under one sun in one group of wavelengths.
+// What chunks of orders add to the source in all directions together, and to the ground's irradiance, over the
+// sums of all. An invocation is an altitude, or after the last one the ground, under one sun in one group of wavelengths.
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
 #include "methods/later_orders.glsl"
@@ -21,29 +21,39 @@ layout(push_constant) uniform Push {
   int chunks;
 } push;
 
+int first_texel(int altitude, int sun, int g) {
+  if (altitude == grid.altitudes) return g * grid.suns + sun;
+  return ((g * grid.altitudes + altitude) * grid.suns + sun) * push.directions;
+}
+
+// The sum of what came before chunk n, or of all, at a place of the table.
+Vec4 source_before(int n, int texel) {
+  if (n == push.chunks) return source_sums[texel];
+  return earlier_sources[n * GROUPS * grid.altitudes * grid.suns * push.directions + texel];
+}
+Vec4 irradiance_before(int n, int texel) {
+  if (n == push.chunks) return irradiance_sums[texel];
+  return earlier_irradiances[n * GROUPS * grid.suns + texel];
+}
+
 void main() {
   int item = push.first_item + int(gl_GlobalInvocationID.x);
   if (item >= push.end_item) return;
   int g = item % GROUPS;
   int sun = item / GROUPS % grid.suns;
   int altitude = item / GROUPS / grid.suns;
-  bool ground = altitude == grid.altitudes;
-  int directions = ground ? 1 : push.directions;
-  int texel = ground ? g * grid.suns + sun
-                     : ((g * grid.altitudes + altitude) * grid.suns + sun) * directions;
-  int table = GROUPS * grid.suns * (ground ? 1 : grid.altitudes * directions);
+  int texel = first_texel(altitude, sun, g);
   Vec4 sums[MOST_CHUNKS + 1];
-  for (int n = 0; n <= MOST_CHUNKS; ++n) sums[n] = Vec4(0.0);
-  for (int i = 0; i < directions; ++i) {
-    for (int n = 0; n < push.chunks; ++n) {
-      int at = n * table + texel + i;
-      sums[n] = sums[n] + (ground ? earlier_irradiances[at] : earlier_sources[at]);
+  for (int n = 0; n <= push.chunks; ++n) {
+    sums[n] = Vec4(0.0);
+    if (altitude == grid.altitudes) {
+      sums[n] = irradiance_before(n, texel);
+    } else {
+      for (int i = 0; i < push.directions; ++i) sums[n] = sums[n] + source_before(n, texel + i);
     }
-    sums[push.chunks] =
-        sums[push.chunks] + (ground ? irradiance_sums[texel] : source_sums[texel + i]);
   }
   for (int n = 0; n < push.chunks; ++n) {
-    chunk_values[chunk_mean_at(n, altitude, sun) + g] =
+    chunk_values[chunk_value_at(n, altitude, sun) + g] =
         (sums[n + 1] - sums[n]) / max(sums[push.chunks], Vec4(1e-30));
   }
 }

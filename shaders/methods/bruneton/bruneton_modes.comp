@@ -5,8 +5,8 @@
 #include "methods/bruneton/tables.glsl"
 layout(std430, binding = FREE) restrict buffer ChunkBuffer { Vec4 chunk_values[]; };
 int sun, group;
-int chunk_mean_at(int n, int altitude, int sun);
-#define CHUNK_VECTOR(n, i) chunk_values[chunk_mean_at(n, i, sun) + group]
+int chunk_value_at(int n, int altitude, int sun);
+#define CHUNK_VECTOR(n, i) chunk_values[chunk_value_at(n, i, sun) + group]
 #define CHUNK_VALUES (grid.altitudes + 1)
 #include "methods/later_orders.glsl"
 #include "methods/bruneton/chunks.glsl"
