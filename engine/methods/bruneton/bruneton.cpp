@@ -151,10 +151,10 @@ MethodDescription describe() {
             "0.86 at the defaults) are as wide as these from the second order on.",
             {13, 14},
             [](const SceneTraits& scene) { return scene.asymmetry > 0.85; }},
-           {"Air of an optical depth of 7 and more loses or gains some per cent of the "
-            "light, beyond that of 10 a tenth and more.",
+           {"Haze of an optical depth of 3 is off by a tenth, of 10 by half, molecules of 10 "
+            "lose a twentieth of the light: more altitudes follow thick air.",
             {12, 22},
-            [](const SceneTraits& scene) { return scene.depth > 5; }},
+            [](const SceneTraits& scene) { return scene.depth > 2; }},
            {"Where the ground differs from place to place, the light that it sends back "
             "into the air is that of its mean albedo, slopes and the sea see an even "
             "sky, and heights shade the air in order one alone.",
