@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every row of the stability suite at its hardest, and random scenes; half an hour of two cores.
+# Every row of the stability suite at its hardest, and random scenes; a quarter of an hour of two cores.
 set -euo pipefail
 
 ./cyanometer build
