@@ -54,6 +54,10 @@ const std::vector<Star>& star_catalogue() {
 }
 
 double star_irradiance(const Star& star, double wavelength_nm) {
+  // The hydrogen between the stars lets nothing through below the Lyman limit [Cruddace et al.
+  // 1974]; a black body's share of the sun's there soon has no float.
+  constexpr double lyman_limit_nm = 91.18;
+  if (wavelength_nm < lyman_limit_nm) return 0;
   return std::pow(10, -0.4 * (star.magnitude - sun_magnitude)) *
          planck_ratio(wavelength_nm, star.temperature_k) /
          planck_ratio(wavelength_nm, sun_temperature_k);

@@ -21,6 +21,7 @@ const std::vector<Star>& star_catalogue();
 
 /// Irradiance of a star as a share of the sun's at a wavelength: black bodies of both
 /// temperatures, scaled to the visual magnitudes at 550 nm; the sun as from the Earth, -26.74.
+/// 0 below the Lyman limit, 91.18 nm.
 double star_irradiance(const Star& star, double wavelength_nm);
 
 /// star_irradiance of the whole catalogue, kept between frames: their wavelengths seldom

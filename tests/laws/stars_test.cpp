@@ -46,6 +46,16 @@ TEST(Stars, OfMagnitudeZeroAreFiftyBillionTimesFainterThanTheSun) {
   EXPECT_GT(star_irradiance(star, 440), star_irradiance(star, 680));
 }
 
+TEST(Stars, AreFloatsAtAllWavelengthsAndNothingBeyondTheLymanLimit) {
+  StarLight light;
+  for (double wavelength_nm : {10.0, 91.0, 92.0, 200.0, 1e5}) {
+    for (float star : light.at(wavelength_nm)) {
+      EXPECT_TRUE(std::isfinite(star)) << wavelength_nm;
+      EXPECT_EQ(star > 0, wavelength_nm > 91.18) << wavelength_nm;
+    }
+  }
+}
+
 TEST(Stars, TurnAboutAPoleThatStandsInTheNorthAtTheLatitude) {
   for (double latitude : {-90.0, -33.0, 0.0, 48.0, 90.0}) {
     for (const char* time : {"2024-06-20T02:00:00Z", "2024-06-20T09:30:00Z"}) {
