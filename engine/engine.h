@@ -177,7 +177,9 @@ struct EngineOptions {
   std::string device;  ///< part of a device's name; empty: the best there is
   double longest_dispatch_ms = 50;
   std::size_t table_bytes = std::size_t{256} << 20;  ///< of tables kept between requests
-  std::size_t kernels = 192;  ///< compiled forms of all kernels that are kept
+  /// Compiled forms of all kernels that are kept; more for what goes through many scenes.
+  std::size_t kernels = 192;
+  static constexpr std::size_t kernels_for_many_scenes = 600;
   /// Where the paces of devices are kept (planner/profile.h); empty: nominal ones are reckoned
   /// with.
   std::filesystem::path profiles = {};

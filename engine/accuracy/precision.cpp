@@ -16,7 +16,9 @@ using Samples = std::vector<std::vector<double>>;
 constexpr int rays = 256;
 
 Engine engine_with(Rounding rounding, const std::string& device) {
-  return Engine({.device = device, .kernels = 600, .rounding = rounding});
+  return Engine({.device = device,
+                 .kernels = EngineOptions::kernels_for_many_scenes,
+                 .rounding = rounding});
 }
 
 const MethodDescription& described(const std::string& name) {

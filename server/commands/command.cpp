@@ -101,8 +101,9 @@ void write_file(const std::string& path, const std::string& bytes) {
 }
 
 Engine command_engine(const std::string& device) {
-  constexpr std::size_t kernels = 600;  // of the many scenes that a command goes through
-  return Engine({.device = device, .kernels = kernels, .profiles = cache_folder("profiles")});
+  return Engine({.device = device,
+                 .kernels = EngineOptions::kernels_for_many_scenes,
+                 .profiles = cache_folder("profiles")});
 }
 
 std::vector<std::string> preset_names() {

@@ -87,11 +87,6 @@ Real node_of_altitude(MomentGrid grid, Real h) {
   return Real(grid.altitudes - 1) * pow(share, 1.0 / grid.altitude_power);
 }
 
-Real inverse_sinh(Real x) {
-  Real magnitude = log(abs(x) + sqrt(x * x + 1.0));
-  return x < 0.0 ? -magnitude : magnitude;
-}
-
 // The sine of the angle by which the horizon lies below the horizontal at an altitude.
 Real dip_sine(Real h) { return sqrt(squared_height(h)) / (scene.planet_radius_km + h); }
 Real dip_cosine(Real h) { return scene.planet_radius_km / (scene.planet_radius_km + h); }

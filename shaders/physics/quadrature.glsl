@@ -1,6 +1,13 @@
 // Gauss-Legendre rules on [0, 1] [Abramowitz and Stegun 1964, table 25.4]. Loops over those of a fixed
 // number of nodes are unrolled, so that nodes and weights become literals.
 
+// By which nodes gather about a place: even in it they are dense there, and thin out as a geometric series. Odd to the
+// last digit.
+Real inverse_sinh(Real x) {
+  Real magnitude = log(abs(x) + sqrt(x * x + 1.0));
+  return x < 0.0 ? -magnitude : magnitude;
+}
+
 Real gauss2_node(int i) { return i == 0 ? 0.2113248654051871 : 0.7886751345948129; }
 
 Real gauss3_node(int i) {

@@ -26,7 +26,7 @@ void expect_sound(Engine& engine, std::uint64_t seed, const RandomTrialSettings&
 /// The kernels of the scenes that are air and haze serve all of these, where enough are kept.
 EngineOptions with_many_kernels() {
   EngineOptions options;
-  options.kernels = 600;
+  options.kernels = EngineOptions::kernels_for_many_scenes;
   return options;
 }
 

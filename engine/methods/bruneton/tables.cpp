@@ -373,7 +373,8 @@ struct TableMaker::OrderSum {
 struct TableMaker::Closing {
   LaterOrders later;
   float largest_share;  ///< of a chunk in the one before
-  vulkan::Buffer chunks;
+  vulkan::Buffer
+      weights;  ///< and what they are found from, shaders/methods/bruneton/chunks.glsl
 };
 
 void TableMaker::weigh_chunks(const Work& work, const UploadedRays& rays,
@@ -382,17 +383,17 @@ void TableMaker::weigh_chunks(const Work& work, const UploadedRays& rays,
   int directions = source.size.directions(), chunks = closing.later.chunks;
   int sums = rays.rays.grid.suns * work.scene.groups();
   work.fill(means_, rays,
-            {source.sum, source.earlier, irradiance.sum, irradiance.earlier, closing.chunks},
+            {source.sum, source.earlier, irradiance.sum, irradiance.earlier, closing.weights},
             std::int64_t{1} * (rays.rays.grid.altitudes + 1) * sums, chunks * directions,
             MeansPush{0, 0, directions, chunks});
-  work.fill(modes_, rays, {closing.chunks}, sums, 8 * chunks * chunks * source.size.altitudes,
+  work.fill(modes_, rays, {closing.weights}, sums, 8 * chunks * chunks * source.size.altitudes,
             ModesPush{0, 0, chunks});
 }
 
 void TableMaker::add_or_close(const Work& work, const UploadedRays& rays, const OrderSum& sum,
                               const Closing& closing, Leave what) {
   const OrderSum::Size& size = sum.size;
-  work.fill(order_, rays, {sum.order, sum.sum, sum.earlier, closing.chunks, sum.encoded},
+  work.fill(order_, rays, {sum.order, sum.sum, sum.earlier, closing.weights, sum.encoded},
             std::int64_t{1} * size.groups * size.altitudes * size.directions(), 2 * size.suns,
             OrderPush{0, 0, size.altitudes, size.directions(), what == Leave::all_orders,
                       closing.later.chunks, closing.largest_share});

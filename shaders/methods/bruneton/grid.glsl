@@ -27,12 +27,6 @@ struct ScatteringGrid {
   Real sun_span;
 };
 
-Real area_sinh(Real x) {
-  Real y = abs(x);
-  Real value = log(y + sqrt(y * y + 1.0));
-  return x < 0.0 ? -value : value;
-}
-
 // Share of the way between the first node and the last, to a coordinate.
 Real node_coordinate(Real share, int nodes) { return clamp(share, 0.0, 1.0) * Real(nodes - 1); }
 
@@ -145,7 +139,7 @@ Real sun_share(ScatteringGrid grid, Real mu_s) {
     Real a = light_distance_share(mu_s);
     return max(1.0 - a / light_distance_share(grid.lowest_sun), 0.0) / (1.0 + a);
   }
-  return (area_sinh((mu_s + grid.sun_shift) / grid.sun_width) - grid.sun_first) /
+  return (inverse_sinh((mu_s + grid.sun_shift) / grid.sun_width) - grid.sun_first) /
          grid.sun_span;
 }
 
