@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
@@ -319,6 +320,54 @@ TEST(Moments, AreWithinTwoPercentOfRandomWalksInHazeWithAPeak) {
                          device().radiance(walk, spread_directions(), false).radiance);
     print("haze against walks", d);
     EXPECT_LT(share(d, 0.95), 0.02 + noise) << g << " " << sun;
+  }
+}
+
+Scene thick_haze(double g, double sun_elevation_deg) {
+  Scene scene = clear_scene(0, sun_elevation_deg);
+  scene.atmosphere.constituents["aerosol"] = {
+      ExponentialProfile{1.2}, Particles{ParticleOpticalDepth{1.0, 1.0}, HenyeyGreenstein{g}}};
+  return scene;
+}
+
+TEST(Moments, AreWithinATenthOfRandomWalksUnderNarrowPeaks) {
+  for (auto [g, most_median, most] : {std::tuple{0.9, 0.04, 0.15}, {0.97, 0.12, 0.4}}) {
+    Scene scene = thick_haze(g, 33), walk = scene;
+    walk.method = chosen("path", {{"samples_per_pixel", 1 << 14}});
+    auto d = differences(device().radiance(scene, spread_directions(), false).radiance,
+                         device().radiance(walk, spread_directions(), false).radiance);
+    print("narrow peak against walks", d);
+    EXPECT_LT(share(d, 0.5), most_median) << g;
+    EXPECT_LT(share(d, 0.95), most) << g;
+  }
+}
+
+/// Of the logarithm of a sky's radiance, its largest bend over steps of 3 deg along parallels,
+/// further than 20 deg from the sun's azimuth.
+double largest_bend(const Scene& scene) {
+  constexpr int azimuths = 54;
+  std::vector<Direction> directions;
+  for (double elevation = 10; elevation < 90; elevation += 10) {
+    for (int i = 0; i < azimuths; ++i) directions.push_back({elevation, 20 + 3.0 * i});
+  }
+  Samples sky = device().radiance(scene, directions, false).radiance;
+  double worst = 0;
+  for (std::size_t i = 1; i + 1 < sky.size(); ++i) {
+    if (directions[i + 1].elevation_deg != directions[i - 1].elevation_deg) continue;
+    for (std::size_t w = 0; w < sky[i].size(); ++w) {
+      double bend = sky[i - 1][w] * sky[i + 1][w] / (sky[i][w] * sky[i][w]);
+      worst = std::max(worst, std::abs(std::log(bend)));
+    }
+  }
+  return worst;
+}
+
+/// A series of eight degrees is negative beside a peak two degrees wide.
+TEST(Moments, LeaveNoPatchesBesideNarrowPeaks) {
+  for (double g : {0.93, 0.97, 0.99}) {
+    for (double sun : {33.0, 12.0}) {
+      EXPECT_LT(largest_bend(thick_haze(g, sun)), 0.05) << g << " " << sun;
+    }
   }
 }
 

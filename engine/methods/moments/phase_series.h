@@ -28,8 +28,9 @@ std::vector<std::vector<double>> legendre_coefficients(const PhaseFunction& phas
                                                        std::size_t wavelengths, int degree);
 
 /// @param degree  of the moments, L
-/// @param peaks   whether half of chi_(L+1) counts as a peak that goes straight on [Wiscombe
-/// 1977 has all of it: right for fluxes, too much for light from the horizon]
+/// @param peaks   whether of chi_(L+1) half counts as a peak that goes straight on, of a narrow
+/// peak's nearly all [Wiscombe 1977 has all of it: right for fluxes, for wide peaks too much
+/// for light from the horizon]
 PhaseSeries make_phase_series(const Problem& problem, int degree, bool peaks);
 
 }  // namespace cyanometer
