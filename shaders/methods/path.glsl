@@ -151,7 +151,8 @@ bool step_walk(INOUT(Walk) walk, Stream stream, int orders, Real end_km, Real wi
   if (!flight.ground && !(sum > 0.0)) return false;
   UNROLL for (int c = 0; c < MEDIA; ++c) share[c] = share[c] / sum;
 
-  Aim aim = aim_at(sun.direction, walk.altitude_km, carried > 0.0 ? min(sunlit / carried, 1.0) : 0.0);
+  Aim aim = aim_at(sun.direction, walk.altitude_km, carried > 0.0 ? min(sunlit / carried, 1.0) : 0.0,
+                   scatterer.ground ? 1.0 : scattered_widely(share));
   walk.direction = choose_direction(scatterer, aim, sun.direction, share, Vec4(v.x, v.y, v.z, u.w));
   scattered_share(scatterer, walk.direction, density, matter, scattered);
   Real proposed = direction_density(scatterer, aim, sun.direction, share, walk.direction);

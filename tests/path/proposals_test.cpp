@@ -118,7 +118,8 @@ TEST(Proposals, DrawDirectionsWithTheDensityThatTheyState) {
     double share[P::MEDIA_SIZE] = {0.3, 0.2, 0.1, 0.2, 0.2};
     for (bool ground : {false, true}) {
       P::Scatterer scatterer{ground, oracle::towards(ground ? -20 : 15, 200), {}};
-      P::Aim aim = p.aim_at(sun, ground ? 0 : 5, sun_elevation_deg > 0 ? 0.8 : 0.0);
+      P::Aim aim = p.aim_at(sun, ground ? 0 : 5, sun_elevation_deg > 0 ? 0.8 : 0.0,
+                            ground ? 1 : p.scattered_widely(share));
       std::vector<Mean> solid_angle(parts);
       for (int i = 0; i < draws; ++i) {
         glm::dvec4 u = numbers.four();

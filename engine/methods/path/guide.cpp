@@ -104,7 +104,7 @@ void set_path_guide(P& p, const Problem& problem) {
            all_peaked > 0 ? 0.3 * std::sqrt(all_peaked / all) : 0.0};
   for (double depth : peaked) guide.push_back(all_peaked > 0 ? depth / all_peaked : 0.0);
   for (int c = 0; c < p.MEDIA; ++c) append_cells(guide, p, c);
-  if (needs_light_guide(problem)) append_light_guide(p);
+  if (needs_light_guide(problem)) append_light_guide(p, problem);
 }
 
 }  // namespace cyanometer

@@ -8,11 +8,15 @@
 #include <optional>
 
 #include "engine/gauss_legendre.h"
+#include "engine/methods/moments/phase_series.h"
 
 namespace cyanometer {
 namespace {
 
 using P = Physics<double>;
+
+/// Of the brightest place's: what is less counts as this.
+constexpr double least_light = 1e-7;
 
 using Sky = std::vector<double>;  ///< irradiance from each cell on a small sphere
 
@@ -151,14 +155,30 @@ class Views {
   std::vector<std::uint16_t> places_;
 };
 
-/// The scattering of a shell lit from outside, order by order, with isotropic phases and at one
-/// wavelength: enough to tell where light is.
+/// Means of the cosine of the angle by which the constituents scatter, at one wavelength; those
+/// that scatter more to the back count as isotropic.
+std::vector<double> mean_cosines(const Problem& problem, int lane) {
+  std::vector<double> means;
+  std::size_t wavelengths = problem.wavelengths_nm.size();
+  for (const Medium* medium : packed_media(problem)) {
+    auto chi = legendre_coefficients(medium->phase, wavelengths, 1);
+    means.push_back(std::clamp(chi[lane][1], 0.0, 1.0));
+  }
+  return means;
+}
+
+/// The scattering of a shell lit from outside, order by order and at one wavelength: enough to
+/// tell where light is. Phases are isotropic, of so much less scattering as carries light as
+/// far [similarity: van de Hulst 1980, Multiple Light Scattering, section 14.1].
 class Lighting {
  public:
-  Lighting(P& physics, const Views& views, int lane) : p_(physics), views_(views) {
+  Lighting(P& physics, const Problem& problem, const Views& views, int lane)
+      : p_(physics), views_(views) {
+    const std::vector<double> forward = mean_cosines(problem, lane);
     for (int c = 0; c < p_.MEDIA; ++c) {
-      extinction_.push_back(p_.extinction(c, lane / 4)[lane % 4]);
-      scattering_.push_back(p_.scattering(c, lane / 4)[lane % 4]);
+      double scattering = p_.scattering(c, lane / 4)[lane % 4];
+      extinction_.push_back(p_.extinction(c, lane / 4)[lane % 4] - forward[c] * scattering);
+      scattering_.push_back((1 - forward[c]) * scattering);
     }
     for (const auto& sunbeam : views_.sunbeams())
       sunlight_.push_back(sunbeam ? transmittance(*sunbeam) : 0);
@@ -168,10 +188,10 @@ class Lighting {
     }
     light_ = sunlight_;
     sky_.assign(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
-    constexpr int orders = 3;
-    for (int order = 0; order < orders; ++order) {
+    constexpr int most_orders = 32;
+    for (int order = 0; order < most_orders; ++order) {
       look_around();
-      add_skylight();
+      if (add_skylight() < 0.1) break;
     }
   }
 
@@ -216,12 +236,17 @@ class Lighting {
     }
   }
 
-  void add_skylight() {
+  /// @returns the largest part that is new of the light of a place
+  double add_skylight() {
+    double newest = 0, most = *std::max_element(light_.begin(), light_.end());
     for (int i = 0; i < P::LIGHT_ALTITUDES * P::LIGHT_SUNS; ++i) {
       double h = altitude_of(p_, i / P::LIGHT_SUNS, P::LIGHT_ALTITUDES),
              mu_sun = sun_of(p_, i % P::LIGHT_SUNS, P::LIGHT_SUNS);
-      light_[i] = sunlight_[i] + total(sky_[p_.sky_place(h, mu_sun)]);
+      double light = sunlight_[i] + total(sky_[p_.sky_place(h, mu_sun)]);
+      if (light > least_light * most) newest = std::max(newest, 1 - light_[i] / light);
+      light_[i] = light;
     }
+    return newest;
   }
 
   P& p_;
@@ -235,7 +260,7 @@ class Lighting {
 /// Where the estimate knows of no light, walks still look.
 void append_light(std::vector<double>& guide, const std::vector<double>& light) {
   double most = *std::max_element(light.begin(), light.end());
-  for (double value : light) guide.push_back(std::max(value, 1e-7 * most));
+  for (double value : light) guide.push_back(std::max(value, least_light * most));
 }
 
 void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
@@ -254,12 +279,12 @@ void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
 
 }  // namespace
 
-void append_light_guide(Physics<double>& physics) {
+void append_light_guide(Physics<double>& physics, const Problem& problem) {
   std::vector<double> light(P::LIGHT_ALTITUDES * P::LIGHT_SUNS, 0.0);
   std::vector<Sky> sky(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
   const Views views(physics);
   for (int lane : typical_lanes(physics)) {
-    Lighting lighting(physics, views, lane);
+    Lighting lighting(physics, problem, views, lane);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += lighting.light()[i];
     for (std::size_t i = 0; i < sky.size(); ++i) {
       for (std::size_t k = 0; k < sky[i].size(); ++k) sky[i][k] += lighting.sky()[i][k];

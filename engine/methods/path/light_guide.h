@@ -8,7 +8,7 @@ namespace cyanometer {
 
 /// Appends what lies behind light_offset() in `path_guide` (shaders/methods/path.glsl), and
 /// makes walks use it. Depends on the air and the ground, neither on the sun nor on the camera.
-void append_light_guide(Physics<double>& physics);
+void append_light_guide(Physics<double>& physics, const Problem& problem);
 
 /// Whether the sun is low anywhere where the camera sees air.
 bool needs_light_guide(const Problem& problem);

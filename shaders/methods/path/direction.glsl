@@ -12,14 +12,27 @@ struct Aim {
 
 CONSTANT Real SKY_SHARE = 0.6;
 
-Aim aim_at(Vec3 sun, Real h, Real sunlight) {
+// Of what constituents scatter by share, that without a forward peak. Only for this is the sky proposed: a peak's light
+// stays within the peak, and walks that follow it through haze would carry 1 / (1 - SKY_SHARE) times as much after
+// every turn, the few that do. Noise of the sky of haze of optical depth 1, g 0.8 and the sun at 5 deg: 0.05
+// instead of 0.14.
+Real scattered_widely(ARRAY(Real, share, MEDIA_SIZE)) {
+  Real wide = 1.0;
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    if (guide_peak_share(c) > 0.0) wide -= share[c];
+  }
+  return max(wide, 0.0);
+}
+
+// `wide`: the part of a vertex that scatters widely.
+Aim aim_at(Vec3 sun, Real h, Real sunlight, Real wide) {
   Aim aim;
   Vec2 horizontal = Vec2(sun.x, sun.y);
   Real sine = length(horizontal);
   aim.azimuth = sine > 0.0 ? horizontal / sine : Vec2(1.0, 0.0);
   aim.sun = guide_sun_share() * sunlight;
   aim.place = GUIDED ? sky_place(h, sun.z) : 0;
-  aim.sky = GUIDED && sky_light(aim.place) > 0.0 ? SKY_SHARE * (1.0 - aim.sun) : 0.0;
+  aim.sky = GUIDED && sky_light(aim.place) > 0.0 ? SKY_SHARE * wide * (1.0 - aim.sun) : 0.0;
   return aim;
 }
 
