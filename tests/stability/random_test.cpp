@@ -57,11 +57,14 @@ TEST(RandomScenes, AreFiniteAndContinuousThroughTheSmallestTables) {
   }
 }
 
-TEST(RandomScenes, AreFiniteAndContinuousAtTheDefaults) {
-  Engine engine;
-  for (std::uint64_t seed = 0; seed < 20; ++seed)
-    expect_sound(engine, seed, {.usual_options = true, .nudge = seed % 2 == 0});
+/// A test each, so that processes can share them.
+class RandomScene : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomScene, IsFiniteAndContinuousAtTheDefaults) {
+  static Engine engine;
+  expect_sound(engine, GetParam(), {.usual_options = true, .nudge = GetParam() % 2 == 0});
 }
+INSTANTIATE_TEST_SUITE_P(RandomScenes, RandomScene, testing::Range<std::uint64_t>(0, 20));
 
 }  // namespace
 }  // namespace cyanometer

@@ -8,6 +8,7 @@
 #include "engine/scene/document.h"
 #include "engine/stability/report.h"
 #include "engine/stability/suite.h"
+#include "tests/accuracy/temporary_folder.h"
 
 namespace cyanometer {
 namespace {
@@ -17,10 +18,11 @@ Engine& device() {
   return engine;
 }
 
-const StabilitySettings brief{.references = {}, .most_work = 1 << 17};
-
+/// The methods share the references, which take most of the time.
 StabilityPoint at_its_hardest(const StabilityRow& row, const std::string& method) {
-  return measure_point(device(), row, method, row.hardest, brief);
+  static const testing::TemporaryFolder references;
+  return measure_point(device(), row, method, row.hardest,
+                       {.references = references.path(), .most_work = 1 << 17});
 }
 
 std::string in_words(const StabilityPoint& point) {
@@ -41,40 +43,30 @@ bool declares(const MethodDescription& method, int row) {
   });
 }
 
-class Row : public testing::TestWithParam<int> {
- protected:
-  const StabilityRow& row() const {
-    return stability_rows().at(static_cast<std::size_t>(GetParam() - 1));
-  }
-};
+class Row : public ::testing::TestWithParam<int> {};
 
-TEST_P(Row, IsHeldByPathAndRaymarch) {
-  for (const char* method : {"path", "raymarch"}) {
-    StabilityPoint point = at_its_hardest(row(), method);
-    EXPECT_FALSE(fails(point)) << method << ": " << in_words(point);
+/// One test a row, so that processes which share the rows make each reference once.
+TEST_P(Row, IsHeldByPathRaymarchAndAutoAndByTheOthersOrAmongTheirLimits) {
+  const StabilityRow& row = stability_rows().at(static_cast<std::size_t>(GetParam() - 1));
+  for (const char* name : {"path", "raymarch", "auto"}) {
+    StabilityPoint point = at_its_hardest(row, name);
+    EXPECT_FALSE(fails(point)) << name << ": " << in_words(point) << ", stated "
+                               << point.stated;
   }
-}
-
-TEST_P(Row, IsHeldByTheOthersOrAmongTheirLimits) {
   for (const char* name : {"nishita", "hillaire", "bruneton", "moments"}) {
-    StabilityPoint point = at_its_hardest(row(), name);
+    StabilityPoint point = at_its_hardest(row, name);
     EXPECT_NE(point.outcome, Outcome::breaks) << name << ": " << in_words(point);
-    EXPECT_TRUE(!fails(point) || declares(description_of(name), row().number))
+    EXPECT_TRUE(!fails(point) || declares(description_of(name), row.number))
         << name << ": " << in_words(point);
   }
 }
 
-TEST_P(Row, IsNotWhereAutoGoes) {
-  StabilityPoint point = at_its_hardest(row(), "auto");
-  EXPECT_FALSE(fails(point)) << in_words(point) << ", stated " << point.stated;
-}
-
-std::string short_name(const testing::TestParamInfo<int>& row) {
+std::string short_name(const ::testing::TestParamInfo<int>& row) {
   std::string name = stability_rows().at(static_cast<std::size_t>(row.param - 1)).name;
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return std::to_string(row.param) + name;
 }
-INSTANTIATE_TEST_SUITE_P(Stability, Row, testing::Range(1, 26), short_name);
+INSTANTIATE_TEST_SUITE_P(Stability, Row, ::testing::Range(1, 26), short_name);
 
 TEST(Stability, HasEachRowOnceInOrder) {
   ASSERT_EQ(stability_rows().size(), 25u);
