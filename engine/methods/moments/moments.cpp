@@ -438,9 +438,9 @@ const MethodDescription& moments_description() {
           "light's spherical-harmonic moments over altitude and the sun's elevation.",
       .limits =
           {{"Forward peaks sharper than the moments resolve (g above 0.8 at an optical "
-            "depth of 0.2 and more) blur the light next to a low sun and to the horizon. The "
-            "sky of haze of a depth of 1 under a sun at 33 deg is off by 3, 5 and 10 % "
-            "(medians) at a g of 0.9, 0.95 and 0.97.",
+            "depth of 0.2 and more) blur the light next to a low sun and to the horizon; under "
+            "a sun at 33 deg 95 % of the light of haze of a depth of 1 is within 5 % at a g of "
+            "0.9, within 11 % at 0.97.",
             {3, 13, 14},
             [](const SceneTraits& scene) {
               return scene.asymmetry > 0.85 || (scene.asymmetry > 0.7 && scene.haze > 0.15);

@@ -87,8 +87,8 @@ Coefficients all_coefficients(const Medium& medium, int degree) {
 
 /// Share of a constituent's extinction that counts as not there, of chi_(L+1) half for a wide
 /// peak and the more the narrower it is: the same at all wavelengths, so that it scales the
-/// constituent's columns. Halves alone had more than twice the error of a narrow peak (g
-/// 0.97, optical depth 1, sun at 33 deg: median 0.23 instead of 0.10 of the sky).
+/// constituent's columns. With halves alone a sky of a narrow peak (g 0.97, optical depth 1,
+/// sun at 33 deg) was twice as far from walks, their noise included.
 double straight_on(const Medium& medium, const Coefficients& chi, int degree) {
   double share = 1;
   for (std::size_t w = 0; w < chi.size(); ++w) {
