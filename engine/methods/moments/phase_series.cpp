@@ -45,6 +45,9 @@ double lowest_of(const std::vector<double>& kept, const std::vector<double>& chi
   return lowest;
 }
 
+/// Particles have as many unless fewer are asked for: these stay as they are.
+constexpr int fewest_degrees = 4;
+
 /// What the moments scatter, by l. A narrow peak's series would be negative beside the peak,
 /// and light that is cut off at none there left dark and coloured patches in the sky (g 0.97,
 /// optical depth 1): such a peak is as much wider, as heat spreads, as keeps the series from
@@ -58,7 +61,7 @@ std::vector<double> kept_shares(const std::vector<double>& chi, double f, int de
     return lowest_of(kept, chi, f);
   };
   const double allowed = -0.3 * (1 - f);
-  if (lowest_if_spread(0) >= allowed) return kept;
+  if (lowest_if_spread(0) >= allowed || degree < fewest_degrees) return kept;
   double too_short = 0, enough = 1;
   for (int halving = 0; halving < 40; ++halving) {
     double middle = 0.5 * (too_short + enough);
@@ -96,7 +99,8 @@ double straight_on(const Medium& medium, const Coefficients& chi, int degree) {
     double extinction = scattering + medium.absorption_per_km[w];
     double left_out = std::max(chi[w][degree + 1], 0.0);
     if (extinction > 0) {
-      share = std::min(share, left_out * (1 + left_out) / 2 * scattering / extinction);
+      double more = degree < fewest_degrees ? 0 : left_out;
+      share = std::min(share, left_out * (1 + more) / 2 * scattering / extinction);
     }
   }
   return share;
