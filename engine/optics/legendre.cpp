@@ -35,6 +35,18 @@ std::vector<double> cornette_shanks_coefficients(double g, int degree) {
   return chi;
 }
 
+double legendre_sum(const std::vector<double>& chi, double cosine) {
+  double sum = 0, before = 0, p = 1;
+  for (std::size_t l = 0; l < chi.size(); ++l) {
+    double n = static_cast<double>(l);
+    sum += (2 * n + 1) * chi[l] * p;
+    double next = ((2 * n + 1) * cosine * p - n * before) / (n + 1);
+    before = p;
+    p = next;
+  }
+  return sum;
+}
+
 namespace {
 
 /// The integrals over an interval of a table are summed for all its functions at once: they

@@ -20,4 +20,8 @@ std::vector<std::vector<double>> tabulated_coefficients(
     const std::vector<double>& angle_rad, const std::vector<std::vector<double>>& values,
     int degree);
 
+/// The function that has those coefficients, over an isotropic one's: the sum over l of (2 l +
+/// 1) chi_l P_l(cosine).
+double legendre_sum(const std::vector<double>& chi, double cosine);
+
 }  // namespace cyanometer

@@ -11,7 +11,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// chi_l of a function of the cosine, by quadrature.
 template <class Function>
@@ -54,6 +54,17 @@ TEST(LegendreCoefficients, OfHenyeyAndGreensteinArePowersOfG) {
     expect_near(henyey_greenstein_coefficients(g, 30),
                 by_quadrature([&](double mu) { return henyey_greenstein(g, mu); }, 30), 1e-10);
   }
+}
+
+TEST(LegendreCoefficients, SumUpToTheFunctionThatTheyAreOf) {
+  for (double g : {-0.5, 0.0, 0.7}) {
+    for (double cosine : {-1.0, -0.3, 0.6, 1.0}) {
+      double expected = (1 - g * g) / std::pow(1 + g * g - 2 * g * cosine, 1.5);
+      EXPECT_NEAR(legendre_sum(henyey_greenstein_coefficients(g, 150), cosine), expected,
+                  1e-9 * expected);
+    }
+  }
+  EXPECT_EQ(legendre_sum({}, 0.5), 0);
 }
 
 TEST(LegendreCoefficients, OfCornetteAndShanksAreThoseOfItsFunction) {

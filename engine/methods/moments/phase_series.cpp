@@ -26,42 +26,30 @@ double damped_end(int l, int degree) {
   return 1 - 0.4 * std::pow(static_cast<double>(l) / degree, 8);
 }
 
-/// The lowest value over all angles of sum over l of (2 l + 1) kept_l (chi_l - f) P_l.
-double lowest_of(const std::vector<double>& kept, const std::vector<double>& chi, double f) {
+double lowest_of(const std::vector<double>& series) {
   constexpr int angles = 180;
   double lowest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= angles; ++i) {
-    double cosine = std::cos(std::numbers::pi * i / angles);
-    double sum = 0, before = 0, p = 1;
-    for (std::size_t l = 0; l < kept.size(); ++l) {
-      double n = static_cast<double>(l);
-      sum += (2 * n + 1) * kept[l] * (chi[l] - f) * p;
-      double next = ((2 * n + 1) * cosine * p - n * before) / (n + 1);
-      before = p;
-      p = next;
-    }
-    lowest = std::min(lowest, sum);
-  }
+  for (int i = 0; i <= angles; ++i)
+    lowest = std::min(lowest, legendre_sum(series, std::cos(std::numbers::pi * i / angles)));
   return lowest;
 }
-
-/// Particles have as many unless fewer are asked for: these stay as they are.
-constexpr int fewest_degrees = 4;
 
 /// What the moments scatter, by l. A narrow peak's series would be negative beside the peak,
 /// and light that is cut off at none there left dark and coloured patches in the sky (g 0.97,
 /// optical depth 1): such a peak is as much wider, as heat spreads, as keeps the series from
-/// falling further below none than 0.3 of its mean. Up to a g of 0.85 eight degrees hold it as
+/// falling further below none than 0.2 of its mean. Up to a g of 0.85 eight degrees hold it as
 /// it is.
 std::vector<double> kept_shares(const std::vector<double>& chi, double f, int degree) {
-  std::vector<double> kept(degree + 1);
+  std::vector<double> kept(degree + 1), series(degree + 1);
   auto lowest_if_spread = [&](double time) {
-    for (int l = 0; l <= degree; ++l)
+    for (int l = 0; l <= degree; ++l) {
       kept[l] = damped_end(l, degree) * std::exp(-time * l * (l + 1));
-    return lowest_of(kept, chi, f);
+      series[l] = kept[l] * (chi[l] - f);
+    }
+    return lowest_of(series);
   };
-  const double allowed = -0.3 * (1 - f);
-  if (lowest_if_spread(0) >= allowed || degree < fewest_degrees) return kept;
+  const double allowed = -0.2 * (1 - f);
+  if (lowest_if_spread(0) >= allowed) return kept;
   double too_short = 0, enough = 1;
   for (int halving = 0; halving < 40; ++halving) {
     double middle = 0.5 * (too_short + enough);
@@ -99,7 +87,7 @@ double straight_on(const Medium& medium, const Coefficients& chi, int degree) {
     double extinction = scattering + medium.absorption_per_km[w];
     double left_out = std::max(chi[w][degree + 1], 0.0);
     if (extinction > 0) {
-      double more = degree < fewest_degrees ? 0 : left_out;
+      double more = left_out;
       share = std::min(share, left_out * (1 + more) / 2 * scattering / extinction);
     }
   }
@@ -162,25 +150,23 @@ struct Aureole {
     weight += depth;
   }
 
-  double at(double cosine, int degree) const {
+  /// Coefficients of the function; none where there is nothing to tell them from.
+  std::vector<double> series(int degree) const {
     std::size_t first = degree + 1;
-    if (weight <= 0 || scattered.size() <= first || scattered[first] < 1e-6 * weight) return 0;
-    double sum = 0, before = 0, p = 1;
-    for (std::size_t l = 0; l < scattered.size(); ++l) {
-      double n = static_cast<double>(l);
-      sum += (2 * n + 1) / four_pi * left_out[l] / weight * scattered[l] / scattered[first] * p;
-      double next = ((2 * n + 1) * cosine * p - n * before) / (n + 1);
-      before = p;
-      p = next;
-    }
-    return sum;
+    if (weight <= 0 || scattered.size() <= first || scattered[first] < 1e-6 * weight) return {};
+    std::vector<double> all;
+    for (std::size_t l = 0; l < scattered.size(); ++l)
+      all.push_back(left_out[l] / weight * scattered[l] / scattered[first]);
+    return all;
   }
 };
 
 void set_aureole(Layout& layout, std::size_t w, const Aureole& aureole, int degree) {
+  const std::vector<double> series = aureole.series(degree);
   for (int node = 0; node < aureole_nodes; ++node) {
     double root = static_cast<double>(node) / (aureole_nodes - 1);
-    layout.set_aureole(node, w, aureole.at(1 - 2 * root * root * root * root, degree));
+    layout.set_aureole(node, w,
+                       legendre_sum(series, 1 - 2 * root * root * root * root) / four_pi);
   }
 }
 

@@ -26,19 +26,14 @@ Real sky_share_before(int place, int cell) {
   return path_guide[sky_offset() + SKY_ALTITUDES * SKY_SUNS + place * (SKY_CELLS + 1) + cell];
 }
 
-Real sinh_inverse(Real x) {
-  Real y = log(abs(x) + sqrt(x * x + 1.0));
-  return x < 0.0 ? -y : y;
-}
-
 // Coordinates from 0 to 1. Suns are spread about the angle at which the shell's shadow ends.
 Real altitude_coordinate(Real h) { return sqrt(max(h, 0.0) / scene.thickness_km); }
 Real sun_coordinate(Real mu_sun) {
   Real radius = scene.planet_radius_km + scene.thickness_km;
   Real dip = sqrt(squared_height(scene.thickness_km)) / radius;
-  Real lowest = sinh_inverse(-4.0);
-  Real highest = sinh_inverse(2.0 / dip + 0.5);
-  return clamp((sinh_inverse(2.0 * mu_sun / dip + 0.5) - lowest) / (highest - lowest), 0.0, 1.0);
+  Real lowest = inverse_sinh(-4.0);
+  Real highest = inverse_sinh(2.0 / dip + 0.5);
+  return clamp((inverse_sinh(2.0 * mu_sun / dip + 0.5) - lowest) / (highest - lowest), 0.0, 1.0);
 }
 
 int light_place(Real h, Real mu_sun) {
