@@ -13,7 +13,7 @@ namespace cyanometer {
 namespace {
 
 using Samples = std::vector<std::vector<double>>;
-constexpr int rays = 256;
+constexpr int precision_rays = 256;
 
 Engine engine_with(Rounding rounding, const std::string& device) {
   return Engine({.device = device,
@@ -84,7 +84,7 @@ PrecisionTrial::PrecisionTrial(const std::string& device)
 PrecisionPoint PrecisionTrial::measure(const Scene& scene, const std::string& name,
                                        const Watch& watch) {
   const MethodDescription& method = described(name);
-  const std::vector<Direction> directions = sample_directions(scene, rays);
+  const std::vector<Direction> directions = sample_directions(scene, precision_rays);
   const Plan plan = plan_of(scene, method);
   std::array<Samples, 4> values;
   for (std::size_t i = 0; i < engines_.size(); ++i)

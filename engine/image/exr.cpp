@@ -20,9 +20,9 @@
 namespace cyanometer {
 namespace {
 
-class MemoryStream : public Imf::OStream {
+class MemoryOutput : public Imf::OStream {
  public:
-  explicit MemoryStream(std::string& bytes) : OStream("memory"), bytes_(bytes) {}
+  explicit MemoryOutput(std::string& bytes) : OStream("memory"), bytes_(bytes) {}
   void write(const char c[], int n) override {
     bytes_.resize(std::max(bytes_.size(), position_ + static_cast<std::size_t>(n)));
     std::memcpy(bytes_.data() + position_, c, static_cast<std::size_t>(n));
@@ -73,7 +73,7 @@ void write(const Frame& frame, Imf::Header header, Imf::PixelType type,
                   Imf::Slice(type, const_cast<char*>(samples[i]), sample_bytes,
                              sample_bytes * static_cast<std::size_t>(frame.width)));
   }
-  MemoryStream stream(bytes);
+  MemoryOutput stream(bytes);
   Imf::OutputFile file(stream, header);
   file.setFrameBuffer(pixels);
   for (int y = 0; y < frame.height; y += kLinesBetweenLooks) {

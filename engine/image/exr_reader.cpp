@@ -29,9 +29,9 @@ constexpr std::uint32_t deep_flag = 0x800, multipart_flag = 0x1000;
 constexpr int most_channels = 32;
 constexpr std::uint32_t smallest_tile = 8, largest_tile = 2048;
 
-class MemoryStream : public Imf::IStream {
+class MemoryInput : public Imf::IStream {
  public:
-  explicit MemoryStream(std::string_view bytes) : IStream("the EXR"), bytes_(bytes) {}
+  explicit MemoryInput(std::string_view bytes) : IStream("the EXR"), bytes_(bytes) {}
   bool read(char c[], int n) override {
     const auto wanted = static_cast<std::uint64_t>(n);
     if (n < 0 || position_ > bytes_.size() || wanted > bytes_.size() - position_) {
@@ -90,7 +90,7 @@ void check_kind(std::string_view bytes) {
 }
 
 Imf::Header read_header(std::string_view bytes) {
-  MemoryStream stream(bytes);
+  MemoryInput stream(bytes);
   stream.seekg(preamble);
   int version = static_cast<int>(little_endian(bytes, magic.size()));
   Imf::Header header;
@@ -169,7 +169,7 @@ bool is_rec709(const Imf::Chromaticities& given) {
 
 void read_pixels(std::string_view bytes, const std::vector<std::string>& wanted, int width,
                  int height, ExrImage& image) {
-  MemoryStream stream(bytes);
+  MemoryInput stream(bytes);
   Imf::InputFile file(stream, 0);  // on this thread, with one buffer of lines
   if (!file.isComplete()) ends_early();
   const Imath::Box2i window = file.header().dataWindow();

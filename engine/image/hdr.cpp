@@ -82,7 +82,7 @@ const float* plane(const Frame& frame, std::string_view channel) {
   throw std::runtime_error("the frame has no channel " + std::string(channel));
 }
 
-std::string header(const Frame& frame) {
+std::string radiance_header(const Frame& frame) {
   std::string description = frame.description;
   std::replace(description.begin(), description.end(), '\n', ' ');  // one line, the same JSON
   std::string text = "#?RADIANCE\n# " + std::string(kDescriptionKey) + " " + description +
@@ -105,7 +105,7 @@ std::string encode_hdr(const Frame& frame, const Scene&) {
                                         plane(frame, "B")};
   const auto width = static_cast<std::size_t>(frame.width);
   const auto height = static_cast<std::size_t>(frame.height);
-  std::string file = header(frame);
+  std::string file = radiance_header(frame);
   std::vector<Rgbe> row(width);
   for (std::size_t y = 0; y < height; ++y) {
     look_up();

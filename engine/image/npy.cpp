@@ -11,7 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "samples are written as they lie");
 
-std::string header(const Frame& frame) {
+std::string npy_header(const Frame& frame) {
   std::string fields = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
                        std::to_string(frame.height) + ", " + std::to_string(frame.width) +
                        ", " + std::to_string(frame.planes.size()) + "), }";
@@ -31,7 +31,7 @@ std::string encode_npy(const Frame& frame, const Scene&) {
   const std::size_t pixels =
       static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   const std::size_t channels = frame.planes.size();
-  std::string file = header(frame);
+  std::string file = npy_header(frame);
   const std::size_t start = file.size();
   file.resize(start + pixels * channels * sizeof(float));
   for (std::size_t c = 0; c < channels; ++c) {

@@ -30,7 +30,7 @@ void append_chunk(std::string& file, std::string_view type, std::string_view dat
   append_big_endian(file, crc32_gzip_refl(0, covered, file.size() - start));
 }
 
-std::string header(const Frame& frame) {
+std::string image_header(const Frame& frame) {
   std::string data;
   append_big_endian(data, static_cast<std::uint32_t>(frame.width));
   append_big_endian(data, static_cast<std::uint32_t>(frame.height));
@@ -90,7 +90,7 @@ void filter_row(const unsigned char* rgbx, std::size_t width, unsigned char* to)
 
 std::string encode_png(const Frame& frame, const Scene&) {
   std::string file = "\x89PNG\r\n\x1a\n";
-  append_chunk(file, "IHDR", header(frame));
+  append_chunk(file, "IHDR", image_header(frame));
   append_chunk(file, "sRGB", std::string(1, '\0'));  // perceptual intent
   append_chunk(file, "iTXt", text(kDescriptionKey, frame.description));
 

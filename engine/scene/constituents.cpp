@@ -170,14 +170,14 @@ constexpr auto depth_name = "optical_depth";
 constexpr auto depth_title = "Optical depth";
 constexpr auto depth_help = "Vertical optical depth of extinction, from the ground to the top.";
 
-constexpr double deepest = 1e4;
+constexpr double greatest_depth = 1e4;
 
 ObjectOf<MieOpticalDepth> mie_optical_depth() {
   return object<MieOpticalDepth>(
       Wrapped<MieOpticalDepth>(
           depth_name,
           object<MieOpticalDepth>(
-              Member("value", &MieOpticalDepth::value, number(0, deepest), "Value",
+              Member("value", &MieOpticalDepth::value, number(0, greatest_depth), "Value",
                      "The optical depth at one wavelength; the others "
                      "follow from Mie theory.")
                   .log_slider(1e-3, 10)
@@ -196,8 +196,8 @@ ObjectOf<Particles> particles() {
           cases<Particles>(&Particles::optics)
               .form(particle_coefficients())
               .form(object<ParticleOpticalDepth>(
-                  Member(depth_name, &ParticleOpticalDepth::optical_depth, spectrum(0, deepest),
-                         depth_title, depth_help)
+                  Member(depth_name, &ParticleOpticalDepth::optical_depth,
+                         spectrum(0, greatest_depth), depth_title, depth_help)
                       .log_slider(1e-3, 10)
                       .required(),
                   albedo<ParticleOpticalDepth>()))
@@ -216,7 +216,7 @@ ObjectOf<Particles> particles() {
             depth && !std::holds_alternative<MieSpheres>(particles.phase))
           refuse(at / std::string_view(depth_name),
                  {{"value", depth->value}, {"at_nm", depth->at_nm}},
-                 spectrum(0, deepest)->words(),
+                 spectrum(0, greatest_depth)->words(),
                  "only with a phase of type mie the rest follows");
       }));
 }

@@ -4,7 +4,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr std::size_t deepest = 32;
+constexpr std::size_t deepest_level = 32;
 constexpr std::size_t largest_bytes = 8u << 20;
 
 /// The parser quotes bytes that may be no UTF-8.
@@ -56,10 +56,10 @@ class Builder {
   }
   bool add(Json&& value) { return place(std::move(value)), true; }
   bool open(Json&& value) {
-    if (open_.size() == deepest)
-      throw SceneError(
-          "", "", "at most " + std::to_string(deepest) + " levels deep",
-          "The document is nested more than " + std::to_string(deepest) + " levels deep.");
+    if (open_.size() == deepest_level)
+      throw SceneError("", "", "at most " + std::to_string(deepest_level) + " levels deep",
+                       "The document is nested more than " + std::to_string(deepest_level) +
+                           " levels deep.");
     if (!open_.empty())
       keys_.push_back(open_.back()->is_array() ? std::to_string(open_.back()->size()) : key_);
     open_.push_back(place(std::move(value)));

@@ -241,7 +241,7 @@ class Run {
   json result_;
 };
 
-bool names(const json& list, const std::string& method) {
+bool is_named_in(const json& list, const std::string& method) {
   return std::ranges::any_of(list, [&](const json& entry) {
     return entry.at("method").get_ref<const std::string&>() == method;
   });
@@ -263,8 +263,8 @@ std::string random_report(const std::vector<json>& trials) {
     double largest = 0;
     std::string seeds;
     for (const json& trial : trials) {
-      bool bad = names(trial.at("failures"), method.name);
-      refused += names(trial.at("refusals"), method.name);
+      bool bad = is_named_in(trial.at("failures"), method.name);
+      refused += is_named_in(trial.at("refusals"), method.name);
       broken += bad;
       if (trial.contains("jumps") && trial["jumps"].contains(method.name)) {
         double jump = trial["jumps"][method.name];

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "engine/stability/trial.h"
 
 namespace cyanometer {
+
+constexpr double degree = std::numbers::pi / 180;  ///< in radians
 
 /// What a row's quantity came to; `least` is what of it is beyond the noise of its reference.
 struct Measured {

@@ -13,7 +13,6 @@ namespace {
 
 using nlohmann::json;
 using Samples = std::vector<std::vector<double>>;
-constexpr double degree = std::numbers::pi / 180;
 
 json with(json scene, const char* name, const json& constituent) {
   return changed(std::move(scene), {{"atmosphere", {{"constituents", {{name, constituent}}}}}});

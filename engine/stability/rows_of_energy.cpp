@@ -37,7 +37,7 @@ json peaked(double g) {
 /// What goes down less what goes up, over what came from the sun, by channel.
 std::array<double, 3> net_fluxes(Trial& trial, const json& scene, double sun_deg) {
   Radiances seen = trial.look(scene, {{90, 0}, {-90, 0}}, true);
-  double incident = std::sin(sun_deg * std::numbers::pi / 180);
+  double incident = std::sin(sun_deg * degree);
   std::array<double, 3> net{};
   for (std::size_t c = 0; c < 3; ++c) {
     net[c] = (seen.irradiance->direct[c] + seen.irradiance->diffuse_down[c] -
@@ -117,8 +117,7 @@ double reciprocity_gap(Trial& trial, const json& scene, double a_deg, double b_d
     return trial.look(lit, {{-view_deg, 70}});
   };
   Radiances there = reflected(a_deg, b_deg), back = reflected(b_deg, a_deg);
-  double sin_a = std::sin(a_deg * std::numbers::pi / 180),
-         sin_b = std::sin(b_deg * std::numbers::pi / 180), worst = 0;
+  double sin_a = std::sin(a_deg * degree), sin_b = std::sin(b_deg * degree), worst = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     worst =
         std::max(worst, apart(there.radiance[0][c] / sin_a, back.radiance[0][c] / sin_b,

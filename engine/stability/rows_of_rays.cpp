@@ -12,7 +12,6 @@ namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-constexpr double degree = std::numbers::pi / 180;
 constexpr double radius_km = 6360;
 
 json seen_from(json scene, double altitude_km, double sun_deg) {

@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 using Samples = std::vector<std::vector<double>>;
-constexpr double degree = std::numbers::pi / 180;
 
 json lit_from(json scene, double elevation_deg, double azimuth_deg = 0) {
   return changed(std::move(scene),

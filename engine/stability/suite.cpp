@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<Outcome, const char*>, 6> names{
+constexpr std::array<std::pair<Outcome, const char*>, 6> outcome_names{
     {{Outcome::holds, "holds"},
      {Outcome::degrades, "degrades"},
      {Outcome::breaks, "breaks"},
@@ -20,7 +20,7 @@ constexpr std::array<std::pair<Outcome, const char*>, 6> names{
      {Outcome::reference, "reference"}}};
 
 Outcome outcome_named(const std::string& name) {
-  for (const auto& [outcome, word] : names) {
+  for (const auto& [outcome, word] : outcome_names) {
     if (name == word) return outcome;
   }
   throw std::invalid_argument(name + " is no outcome");
@@ -47,7 +47,8 @@ void measure(const StabilityRow& row, Trial& trial, StabilityPoint& point) {
 }  // namespace
 
 std::string name_of(Outcome outcome) {
-  return std::ranges::find(names, outcome, &std::pair<Outcome, const char*>::first)->second;
+  return std::ranges::find(outcome_names, outcome, &std::pair<Outcome, const char*>::first)
+      ->second;
 }
 
 std::vector<std::string> stability_subjects() {

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct AuditArguments {
   std::string file, device;
   std::uint64_t first = 0;
   int scenes = 200;
@@ -35,7 +35,7 @@ std::vector<json> read_lines(const std::string& path, const json& by) {
   return scenes;
 }
 
-void audit(const Arguments& arguments) {
+void audit(const AuditArguments& arguments) {
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
   const json by{{"version", version()}, {"device", engine.device().name}};
@@ -61,7 +61,7 @@ void audit(const Arguments& arguments) {
 void add_audit(CLI::App& app) {
   auto* command =
       app.add_subcommand("audit", "Whether plans keep their word, on random scenes");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<AuditArguments>();
   command
       ->add_option("-o,--output", arguments->file,
                    "File of one scene's figures a line; what is there goes on")

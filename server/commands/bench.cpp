@@ -12,7 +12,7 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct BenchArguments {
   std::string device, json_output;
   std::vector<std::string> presets;
   ChartSettings settings;
@@ -39,7 +39,7 @@ void print(const ChartScene& scene, const ChartPoint& point) {
             << std::endl;
 }
 
-void bench(const Arguments& arguments) {
+void bench(const BenchArguments& arguments) {
   Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
   Chart chart{engine.device().name, version(), {}};
@@ -70,7 +70,7 @@ void bench(const Arguments& arguments) {
 void add_bench(CLI::App& app) {
   auto* command = app.add_subcommand(
       "bench", "What each method costs and how wrong it is, preset by preset, as a table");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BenchArguments>();
   ChartSettings& settings = arguments->settings;
   settings.defaults_only = true;
   settings.reference = {256, 0.003, 4096};

@@ -20,13 +20,13 @@ constexpr const char* usual_presets[] = {"earth_noon", "earth_low_sun", "earth_t
                                          "earth_hazy", "earth_10km",    "earth_limb",
                                          "earth_disc", "mars",          "titan"};
 
-struct Arguments {
+struct ChartArguments {
   std::vector<std::string> files, presets;
   std::string folder, device;
   ChartSettings settings;
 };
 
-std::vector<ChartScene> scenes_of(const Arguments& arguments) {
+std::vector<ChartScene> scenes_of(const ChartArguments& arguments) {
   std::vector<ChartScene> scenes;
   auto add = [&](const std::string& name, const json& document) {
     Scene scene = charted(read_scene(document), arguments.settings.pixels);
@@ -67,7 +67,7 @@ void write(const std::filesystem::path& folder, const Chart& chart) {
   write_file((folder / "chart.svg").string(), chart_svg(chart));
 }
 
-void chart(const Arguments& arguments) {
+void chart(const ChartArguments& arguments) {
   const Watch watch = command_watch();
   const std::filesystem::path folder = arguments.folder;
   std::filesystem::create_directories(folder);
@@ -100,7 +100,7 @@ void add_chart(CLI::App& app) {
   auto* command = app.add_subcommand(
       "chart",
       "Speed against accuracy of every method, as chart.svg, chart.csv and chart.json");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ChartArguments>();
   ChartSettings& settings = arguments->settings;
   command->add_option(
       "scene", arguments->files,

@@ -14,7 +14,7 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string a, b, output, device;
 };
 
@@ -23,12 +23,13 @@ void print(const Comparison& comparison) {
   write_file("-", comparison_document(comparison).dump(2) + "\n");
 }
 
-void paint(const Arguments& arguments, const std::vector<float>& map, const Image& image) {
+void paint(const CompareArguments& arguments, const std::vector<float>& map,
+           const Image& image) {
   end_progress();
   write_file(arguments.output, error_picture(map, image.width, image.height));
 }
 
-void compare_scenes(const Arguments& arguments, const std::string& a) {
+void compare_scenes(const CompareArguments& arguments, const std::string& a) {
   const auto asked =
       read_compare_request({{"a", parse_json(a)}, {"b", read_document(arguments.b)}});
   const Watch watch = command_watch();
@@ -38,7 +39,7 @@ void compare_scenes(const Arguments& arguments, const std::string& a) {
   if (!arguments.output.empty()) paint(arguments, error_map(frames), asked.b.image);
 }
 
-void judge_picture(const Arguments& arguments, const std::string& bytes) {
+void judge_picture(const CompareArguments& arguments, const std::string& bytes) {
   const Scene scene = read_scene(read_document(arguments.b));
   const Watch watch = command_watch();
   ExrImage image;
@@ -54,7 +55,7 @@ void judge_picture(const Arguments& arguments, const std::string& bytes) {
   }
 }
 
-void compare_files(const Arguments& arguments) {
+void compare_files(const CompareArguments& arguments) {
   const std::string bytes = read_file(arguments.a);
   is_exr(bytes) ? judge_picture(arguments, bytes) : compare_scenes(arguments, bytes);
 }
@@ -64,7 +65,7 @@ void compare_files(const Arguments& arguments) {
 void add_compare(CLI::App& app) {
   auto* command =
       app.add_subcommand("compare", "How much two scenes, or a picture and a scene, differ");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   command
       ->add_option("a", arguments->a,
                    "Scene document, or an EXR to judge against the converged solution; - is "

@@ -11,12 +11,12 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct CompositeArguments {
   std::string picture, scene, output, device;
   double scale = 1;
 };
 
-void composite(const Arguments& arguments) {
+void composite(const CompositeArguments& arguments) {
   const std::string bytes = read_file(arguments.picture);
   Scene scene;
   Picture picture;
@@ -39,7 +39,7 @@ void composite(const Arguments& arguments) {
 void add_composite(CLI::App& app) {
   auto* command =
       app.add_subcommand("composite", "Lay the scene's air over a picture with distances");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompositeArguments>();
   command
       ->add_option("picture", arguments->picture,
                    "EXR of R, G, B, and Z, the distance along each ray in km")

@@ -12,14 +12,14 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct ContactSheetArguments {
   std::string output, device;
   int width = 1600, columns = 5;
   std::vector<std::string> presets;
 };
 
 /// Those that are asked for, in the order in which they are shown; all where none is.
-std::vector<Preset> presets_of(const Arguments& arguments) {
+std::vector<Preset> presets_of(const ContactSheetArguments& arguments) {
   std::vector<Preset> shown = presets();
   if (arguments.presets.empty()) return shown;
   std::erase_if(shown, [&](const Preset& preset) {
@@ -67,7 +67,7 @@ Scene thumbnail(const Preset& preset, int cell_width, int cell_height) {
                      {"image", {{"width", width}, {"height", height}, {"format", "png"}}}});
 }
 
-void contact_sheet(const Arguments& arguments) {
+void contact_sheet(const ContactSheetArguments& arguments) {
   const int cell = (arguments.width - gap) / arguments.columns - gap;
   const int cell_height = cell * 9 / 16;
   const std::vector<Preset> shown = presets_of(arguments);
@@ -101,7 +101,7 @@ void contact_sheet(const Arguments& arguments) {
 
 void add_contact_sheet(CLI::App& app) {
   auto* command = app.add_subcommand("contact-sheet", "Render all presets as one picture");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ContactSheetArguments>();
   command->add_option("-o,--output", arguments->output, "PNG file")->required();
   command->add_option("--width", arguments->width, "Pixels of the whole")
       ->check(CLI::Range(200, 16384))

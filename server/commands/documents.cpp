@@ -10,13 +10,13 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct DocumentsArguments {
   std::string document, device;
 };
 
 void print(const nlohmann::json& document) { write_file("-", document.dump(2) + "\n"); }
 
-void radiance(const Arguments& arguments) {
+void radiance(const DocumentsArguments& arguments) {
   const auto asked = read_radiance_request(read_document(arguments.document));
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
@@ -26,16 +26,16 @@ void radiance(const Arguments& arguments) {
   print(radiance_document(asked.scene, radiances));
 }
 
-void plan(const Arguments& arguments) {
+void plan(const DocumentsArguments& arguments) {
   const Scene scene = read_scene(read_document(arguments.document));
   Engine engine = command_engine(arguments.device);
   print(plan_document(scene, engine.plan(scene, command_watch())));
 }
 
 CLI::App* add(CLI::App& app, const std::string& name, const std::string& what,
-              const std::string& file, void (*run)(const Arguments&)) {
+              const std::string& file, void (*run)(const DocumentsArguments&)) {
   auto* command = app.add_subcommand(name, what);
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DocumentsArguments>();
   command->add_option("file", arguments->document, file + "; - is standard input")->required();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->callback([arguments, run] { run(*arguments); });

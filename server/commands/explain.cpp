@@ -14,7 +14,7 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct ExplainArguments {
   std::string scene, device;
   bool json = false;
 };
@@ -39,7 +39,7 @@ std::string table(std::vector<Worth> ingredients) {
   return out;
 }
 
-void explain_scene(const Arguments& arguments) {
+void explain_scene(const ExplainArguments& arguments) {
   const Scene scene = read_scene(read_document(arguments.scene));
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
@@ -54,7 +54,7 @@ void explain_scene(const Arguments& arguments) {
 void add_explain(CLI::App& app) {
   auto* command =
       app.add_subcommand("explain", "What each ingredient of a scene is worth, as a table");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExplainArguments>();
   command->add_option("scene", arguments->scene, "Scene document; - is standard input")
       ->required();
   command->add_flag("--json", arguments->json, "The document of POST /v1/explain instead");

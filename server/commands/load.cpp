@@ -10,7 +10,7 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct LoadArguments {
   LoadSettings settings;
   std::string scene;
   double rate = 0;
@@ -34,7 +34,7 @@ void print(const LoadReport& report) {
               report.seconds, report.late);
 }
 
-void load(Arguments arguments) {
+void load(LoadArguments arguments) {
   LoadSettings& settings = arguments.settings;
   if (arguments.rate > 0) settings.rate = arguments.rate;
   settings.vary = !arguments.same;
@@ -54,7 +54,7 @@ void load(Arguments arguments) {
 
 void add_load(CLI::App& app) {
   auto* command = app.add_subcommand("load", "Load a daemon and say what it bears");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<LoadArguments>();
   LoadSettings& settings = arguments->settings;
   settings.scene = {{"image", {{"width", 64}, {"height", 36}}}};
   command->add_option("url", settings.origin, "Its address")->capture_default_str();

@@ -11,14 +11,14 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct PrecisionArguments {
   std::string device;
   std::vector<std::string> presets;
 };
 
 constexpr int pixels = 57600;  // as `bench` draws
 
-void precision(const Arguments& arguments) {
+void precision(const PrecisionArguments& arguments) {
   const Watch watch = command_watch();
   PrecisionTrial trial(arguments.device);
   std::cout << precision_table_head() << std::flush;
@@ -43,7 +43,7 @@ void precision(const Arguments& arguments) {
 void add_precision(CLI::App& app) {
   auto* command = app.add_subcommand(
       "precision", "What the precision of the device's numbers alone is worth, as a table");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PrecisionArguments>();
   command->add_option("--preset", arguments->presets, "Only these; may be repeated")
       ->check(CLI::IsMember(preset_names()));
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");

@@ -22,12 +22,12 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
   std::string scene, output, device, frames, shard = "0/1";
   int workers = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 31u)) + 1;
 };
 
-void render_one(const Arguments& arguments) {
+void render_one(const RenderArguments& arguments) {
   const Scene scene = scene_for_file(read_document(arguments.scene), arguments.output);
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
@@ -63,7 +63,8 @@ std::function<void(const BatchProgress&)> progress_shower() {
   };
 }
 
-Batch batch_of(const Arguments& arguments, const FilePattern& pattern, const Shard& shard) {
+Batch batch_of(const RenderArguments& arguments, const FilePattern& pattern,
+               const Shard& shard) {
   const nlohmann::json scene = read_document(arguments.scene);
   const auto patches = read_frame_patches(scene, read_document(arguments.frames));
   Batch batch;
@@ -84,7 +85,7 @@ Batch batch_of(const Arguments& arguments, const FilePattern& pattern, const Sha
   return batch;
 }
 
-void render_sequence(const Arguments& arguments) {
+void render_sequence(const RenderArguments& arguments) {
   const auto shard = read_argument([&] { return read_shard(arguments.shard); });
   const auto pattern = read_argument([&] { return FilePattern(arguments.output); });
   const Batch batch = batch_of(arguments, pattern, shard);
@@ -97,7 +98,7 @@ void render_sequence(const Arguments& arguments) {
             << done.there << " were there; " << manifest.path().string() << "\n";
 }
 
-void render(const Arguments& arguments) {
+void render(const RenderArguments& arguments) {
   if (arguments.frames.empty()) {
     render_one(arguments);
   } else {
@@ -110,7 +111,7 @@ void render(const Arguments& arguments) {
 void add_render(CLI::App& app) {
   auto* command =
       app.add_subcommand("render", "Render a scene to a file, or a sequence to files");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   command->add_option("scene", arguments->scene, "Scene document; - is standard input")
       ->required();
   command

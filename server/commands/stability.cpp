@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct StabilityArguments {
   std::string folder, device;
   std::vector<int> rows;
   std::vector<std::string> methods;
@@ -45,9 +45,9 @@ bool wanted(const List& list, const Value& value) {
   return list.empty() || std::ranges::find(list, value) != list.end();
 }
 
-class Run {
+class StabilityRun {
  public:
-  Run(const Arguments& arguments, Engine& engine, const Watch& watch)
+  StabilityRun(const StabilityArguments& arguments, Engine& engine, const Watch& watch)
       : arguments_(arguments), engine_(engine), watch_(watch) {
     by_ = {{"version", version()}, {"device", engine.device().name}};
     report_ = {engine.device().name, version(), read_points(file(), by_)};
@@ -93,7 +93,7 @@ class Run {
     write();
   }
 
-  const Arguments& arguments_;
+  const StabilityArguments& arguments_;
   Engine& engine_;
   const Watch& watch_;
   json by_;
@@ -102,7 +102,7 @@ class Run {
 };
 
 /// Random scenes instead of rows.
-void random(const Arguments& arguments, Engine& engine, const Watch& watch) {
+void random(const StabilityArguments& arguments, Engine& engine, const Watch& watch) {
   const std::filesystem::path folder = arguments.folder,
                               file = folder / (arguments.usual_options ? "random_usual.jsonl"
                                                                        : "random.jsonl");
@@ -135,12 +135,12 @@ void random(const Arguments& arguments, Engine& engine, const Watch& watch) {
   std::cout << random_report(all);
 }
 
-void stability(const Arguments& arguments) {
+void stability(const StabilityArguments& arguments) {
   const Watch watch = command_watch();
   std::filesystem::create_directories(arguments.folder);
   Engine engine = command_engine(arguments.device);
   if (arguments.random > 0) return random(arguments, engine, watch);
-  Run run(arguments, engine, watch);
+  StabilityRun run(arguments, engine, watch);
   for (const StabilityRow& row : stability_rows()) {
     if (wanted(arguments.rows, row.number)) run.measure(row);
   }
@@ -156,7 +156,7 @@ void stability(const Arguments& arguments) {
 void add_stability(CLI::App& app) {
   auto* command = app.add_subcommand(
       "stability", "Where methods fail: scenes that break them, as a table and a picture");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StabilityArguments>();
   command->add_option("-o,--output", arguments->folder, "Folder; what is there goes on")
       ->required();
   command

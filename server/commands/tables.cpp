@@ -11,7 +11,7 @@
 namespace cyanometer {
 namespace {
 
-struct Arguments {
+struct TablesArguments {
   std::string scene, preset, folder, device;
 };
 
@@ -29,7 +29,7 @@ Scene with_tables(Scene scene) {
   return scene;
 }
 
-nlohmann::json document(const Arguments& arguments) {
+nlohmann::json document(const TablesArguments& arguments) {
   if (arguments.scene.empty() == arguments.preset.empty()) {
     throw CommandError(exit_refused, "either a scene or a preset is needed");
   }
@@ -46,7 +46,7 @@ std::string png(const Panels& panels) {
   return encode(frame, as_png);
 }
 
-void tables(const Arguments& arguments) {
+void tables(const TablesArguments& arguments) {
   const Scene scene = with_tables(read_scene(document(arguments)));
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
@@ -73,7 +73,7 @@ void tables(const Arguments& arguments) {
 void add_tables(CLI::App& app) {
   auto* command =
       app.add_subcommand("tables", "The tables of the method bruneton for a scene, as PNGs");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<TablesArguments>();
   command->add_option("scene", arguments->scene, "Scene document; - is standard input");
   command->add_option("--preset", arguments->preset, "Instead: a preset");
   command->add_option("-o,--output", arguments->folder, "Folder")->required();

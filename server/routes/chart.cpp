@@ -130,7 +130,7 @@ Answer chart(const Request& request, Service& service) {
           .stream = [live](const Write& write) { live->send(write); }};
 }
 
-json operation() {
+json chart_operation() {
   const json number{{"type", "number"}}, whole{{"type", "integer"}};
   const json list{{"type", "array"}, {"items", number}};
   const json first{
@@ -174,8 +174,8 @@ json operation() {
 }  // namespace
 
 Route chart_post() {
-  return {"POST", "/v1/chart", "Speed against accuracy of every method on a scene", operation,
-          chart};
+  return {"POST", "/v1/chart", "Speed against accuracy of every method on a scene",
+          chart_operation, chart};
 }
 
 }  // namespace cyanometer

@@ -106,7 +106,7 @@ Answer compare_request(const Request& request, Service& service) {
                 : compare_scenes(request, service, picture);
 }
 
-json operation() {
+json compare_operation() {
   const auto number = [](const char* description) {
     return json{{"type", "number"}, {"description", description}};
   };
@@ -145,7 +145,7 @@ json operation() {
 
 Route compare_post() {
   return {"POST", "/v1/compare", "How much two scenes, or a picture and a scene, differ",
-          operation, compare_request};
+          compare_operation, compare_request};
 }
 
 }  // namespace cyanometer

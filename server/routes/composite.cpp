@@ -126,7 +126,7 @@ Answer composite(const Request& request, Service& service) {
   return answer;
 }
 
-json operation() {
+json composite_operation() {
   json out = frame_operation();
   out["requestBody"] = {
       {"required", true},
@@ -155,7 +155,7 @@ json operation() {
 
 Route composite_post() {
   return {"POST", "/v1/composite", "Lay the scene's air over a picture with distances",
-          operation, composite};
+          composite_operation, composite};
 }
 
 }  // namespace cyanometer

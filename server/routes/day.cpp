@@ -75,7 +75,7 @@ Answer day(const Request& request, Service&) {
                       {"moments", moments}});
 }
 
-json operation() {
+json day_operation() {
   const auto number = [](double limit) {
     return json{{"type", "number"}, {"minimum", -limit}, {"maximum", limit}};
   };
@@ -120,7 +120,8 @@ json operation() {
 }  // namespace
 
 Route day_post() {
-  return {"POST", "/v1/day", "Where the sun stands over a place through a day", operation, day};
+  return {"POST", "/v1/day", "Where the sun stands over a place through a day", day_operation,
+          day};
 }
 
 }  // namespace cyanometer

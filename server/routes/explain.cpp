@@ -87,7 +87,7 @@ Answer explain_request(const Request& request, Service& service) {
           .stream = [explanation](const Write& write) { explanation->send(write); }};
 }
 
-json operation() {
+json explain_operation() {
   const auto number = [](const json& type, const char* description) {
     return json{{"type", type}, {"description", description}};
   };
@@ -120,7 +120,7 @@ json operation() {
 }  // namespace
 
 Route explain_post() {
-  return {"POST", "/v1/explain", "What each ingredient of a scene is worth", operation,
+  return {"POST", "/v1/explain", "What each ingredient of a scene is worth", explain_operation,
           explain_request};
 }
 

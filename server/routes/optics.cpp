@@ -42,7 +42,7 @@ Answer optics(const Request& request, Service& service) {
   return json_answer(curves_document(constituent_curves(asked.scene)));
 }
 
-json operation() {
+json optics_operation() {
   const json list{{"type", "array"}, {"items", {{"type", "number"}}}};
   const auto described = [](json schema, const char* description) {
     schema["description"] = description;
@@ -80,7 +80,7 @@ json operation() {
 
 Route optics_post() {
   return {"POST", "/v1/optics", "Profiles, phases and coefficients of a scene's constituents",
-          operation, optics};
+          optics_operation, optics};
 }
 
 }  // namespace cyanometer

@@ -22,7 +22,7 @@ Answer plan(const json& document, const Request& request, Service& service) {
   return json_answer(plan_document(asked.scene, plan));
 }
 
-json operation() {
+json plan_operation() {
   const json number{{"type", "number"}}, text{{"type", "string"}};
   const json schema{{"type", "object"},
                     {"properties",
@@ -45,7 +45,7 @@ json operation() {
 Route plan_post() {
   return {"POST", "/v1/plan", "What would be done for a scene",
           [] {
-            json out = operation();
+            json out = plan_operation();
             out["requestBody"] = openapi::json_body(openapi::scene_schema_reference());
             return out;
           },
@@ -57,7 +57,7 @@ Route plan_post() {
 Route plan_link() {
   return {"GET", "/v1/plan", "What would be done for the scene that a link describes",
           [] {
-            json out = operation();
+            json out = plan_operation();
             out["parameters"] = openapi::link_parameters();
             return out;
           },

@@ -29,7 +29,7 @@ Answer radiance(const Request& request, Service& service) {
   return json_answer(radiance_document(asked.scene, radiances));
 }
 
-json operation() {
+json radiance_operation() {
   const auto angle = [](double limit) {
     return json{{"type", "number"}, {"minimum", -limit}, {"maximum", limit}};
   };
@@ -81,7 +81,8 @@ json operation() {
 }  // namespace
 
 Route radiance_post() {
-  return {"POST", "/v1/radiance", "Spectral radiance in directions", operation, radiance};
+  return {"POST", "/v1/radiance", "Spectral radiance in directions", radiance_operation,
+          radiance};
 }
 
 }  // namespace cyanometer

@@ -152,7 +152,7 @@ Answer stream(Sequence sequence, const Request& request, Service& service, const
   return answer;
 }
 
-json operation() {
+json stream_operation() {
   const json content{
       {"multipart/x-mixed-replace", {{"schema", {{"type", "string"}, {"format", "binary"}}}}}};
   json responses =
@@ -197,7 +197,7 @@ json parameter(const std::string& name, const json& schema, const std::string& d
 Route stream_post() {
   return {"POST", "/v1/stream", "Frames of a sequence, or a frame ever finer",
           [] {
-            json out = operation();
+            json out = stream_operation();
             out["requestBody"] = openapi::json_body(body_schema());
             return out;
           },
@@ -212,7 +212,7 @@ Route stream_post() {
 Route stream_link() {
   return {"GET", "/v1/stream", "The same for links and <img>",
           [] {
-            json out = operation();
+            json out = stream_operation();
             out["parameters"] = openapi::link_parameters();
             out["parameters"].push_back(
                 parameter("frames", {{"type", "integer"}, {"minimum", 1}},

@@ -8,6 +8,7 @@
 #include "engine/accuracy/random_scene.h"
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
@@ -89,7 +90,7 @@ TEST(Audit, DoesNotDecideWhatTheReferenceCannotTell) {
 
 TEST(Audit, OfASceneHasAllChoicesAndPlansAmongThem) {
   testing::TemporaryFolder folder;
-  Engine engine;
+  Engine& engine = device();
   json scene = audit_scene(engine, 4, {64, 0.05, 256}, folder.path());
   ASSERT_FALSE(scene.contains("failure")) << scene;
   EXPECT_EQ(scene.at("plans").size(), std::size(audited_errors));

@@ -8,6 +8,7 @@
 #include "engine/accuracy/chart_svg.h"
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
@@ -109,7 +110,7 @@ TEST(Chart, ScenesHaveTheirProportionsAndWavelengths) {
 /// One engine, few rays, small frames.
 TEST(Chart, MeasuresEachPointOnceAndGoesOn) {
   testing::TemporaryFolder folder;
-  Engine engine;
+  Engine& engine = device();
   ChartSettings settings;
   settings.reference = {64, 0.05, 256};
   settings.references = folder.path();

@@ -11,19 +11,15 @@
 #include "engine/image/encode.h"
 #include "engine/optics/ciede2000.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
 
 using nlohmann::json;
 
-Engine& engine() {
-  static Engine the_engine;
-  return the_engine;
-}
-
 /// Small, at three wavelengths, by a method that needs no plan.
-Scene scene(const json& more = json::object()) {
+Scene rgb_scene(const json& more = json::object()) {
   json document{{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
                 {"method", {{"name", "raymarch"}}},
                 {"image", {{"width", 48}, {"height", 27}}}};
@@ -32,14 +28,14 @@ Scene scene(const json& more = json::object()) {
 }
 
 Comparison compared(const Scene& a, const Scene& b) {
-  return compare(render_pair(engine(), a, b));
+  return compare(render_pair(device(), a, b));
 }
 
 TEST(Compare, OfASceneWithItselfIsZero) {
   for (const json& more :
        {json::object(), json{{"camera", {{"altitude_km", 10000}, {"pitch_deg", -60}}}},
         json{{"spectrum", {{"wavelengths_nm", {450, 500, 550, 600}}, {"colour", "cie"}}}}}) {
-    Comparison same = compared(scene(more), scene(more));
+    Comparison same = compared(rgb_scene(more), rgb_scene(more));
     EXPECT_EQ(same.measure.error, 0);
     EXPECT_EQ(same.measure.bias, 0);
     EXPECT_EQ(same.measure.max, 0);
@@ -49,14 +45,14 @@ TEST(Compare, OfASceneWithItselfIsZero) {
 }
 
 TEST(Compare, TheOtherWayRoundHasTheOtherBias) {
-  Scene bright = scene(), dark = scene({{"planet", {{"ground_albedo", 0.05}}}});
+  Scene bright = rgb_scene(), dark = rgb_scene({{"planet", {{"ground_albedo", 0.05}}}});
   Comparison there = compared(dark, bright), back = compared(bright, dark);
   EXPECT_LT(there.measure.bias, -0.01);
   EXPECT_NEAR(there.measure.bias, -back.measure.bias, 0.1 * back.measure.bias);
 }
 
 TEST(Compare, NeitherDiscNorStarsNorDisplayMatter) {
-  Scene plain = scene({{"sun", {{"elevation_deg", 5}}}});
+  Scene plain = rgb_scene({{"sun", {{"elevation_deg", 5}}}});
   Scene dressed = plain;
   plain.image.show.sun = plain.image.show.stars = false;
   dressed.image.tone_map = ToneMap::linear;
@@ -68,16 +64,16 @@ TEST(Compare, NeitherDiscNorStarsNorDisplayMatter) {
 
 TEST(Compare, ASunTwiceAsBrightIsShownAsBrighter) {
   json strong{{"sun", {{"irradiance", 2}}}};
-  Comparison compare = compared(scene(strong), scene());
+  Comparison compare = compared(rgb_scene(strong), rgb_scene());
   EXPECT_NEAR(compare.measure.bias, 0.5, 0.01);
   EXPECT_GT(compare.ciede2000_p99, 5);
 }
 
 TEST(Compare, FewSamplesAreWorseThanMany) {
   auto nishita = [&](int samples) {
-    return scene({{"method", {{"name", "nishita"}, {"view_samples", samples}}}});
+    return rgb_scene({{"method", {{"name", "nishita"}, {"view_samples", samples}}}});
   };
-  Comparison few = compared(nishita(4), scene()), many = compared(nishita(64), scene());
+  Comparison few = compared(nishita(4), rgb_scene()), many = compared(nishita(64), rgb_scene());
   EXPECT_GT(few.measure.error, many.measure.error);
   EXPECT_GT(few.ciede2000_p99, many.ciede2000_p99);
 }
@@ -85,7 +81,7 @@ TEST(Compare, FewSamplesAreWorseThanMany) {
 TEST(Compare, FramesThatDifferInShapeOrColourAreRefused) {
   auto pointer = [](const json& more) -> std::string {
     try {
-      check_comparable(scene(), scene(more));
+      check_comparable(rgb_scene(), rgb_scene(more));
     } catch (const SceneError& error) {
       return error.pointer;
     }
@@ -140,7 +136,7 @@ TEST(ErrorPicture, HoldsTheFrameAndItsScale) {
 }
 
 TEST(ErrorPicture, OfEqualFramesIsWhite) {
-  std::vector<float> map = error_map(render_pair(engine(), scene(), scene()));
+  std::vector<float> map = error_map(render_pair(device(), rgb_scene(), rgb_scene()));
   for (float d : map) EXPECT_EQ(d, 0);
 }
 
@@ -148,15 +144,15 @@ TEST(ErrorPicture, OfEqualFramesIsWhite) {
 
 std::string exr_of(Scene scene, Plan& plan) {
   scene.image.format = ImageFormat::exr;
-  Frame frame = engine().render(scene);
+  Frame frame = device().render(scene);
   plan = frame.plan;
   return encode(frame, scene);
 }
 
 TEST(Judge, OurOwnFrameIsAsGoodAsItSays) {
-  Scene asked = scene({{"method", {{"name", "auto"}}}});
+  Scene asked = rgb_scene({{"method", {{"name", "auto"}}}});
   Plan plan;
-  Comparison judged = judge(engine(), asked, read_frame(exr_of(asked, plan), asked));
+  Comparison judged = judge(device(), asked, read_frame(exr_of(asked, plan), asked));
   ASSERT_TRUE(judged.error_95);
   double margin = (*judged.error_95)[1] - judged.measure.error;
   EXPECT_LT(judged.measure.error, plan.expected_error + margin);
@@ -165,22 +161,22 @@ TEST(Judge, OurOwnFrameIsAsGoodAsItSays) {
 }
 
 TEST(Judge, SingleScatteringLacksWhatItLacks) {
-  Scene asked = scene();  // all orders, by a method that knows one
+  Scene asked = rgb_scene();  // all orders, by a method that knows one
   Plan plan;
   JudgementGoal rough;
   rough.reference.noise = 0.02;
-  Comparison judged = judge(engine(), asked, read_frame(exr_of(asked, plan), asked), rough);
+  Comparison judged = judge(device(), asked, read_frame(exr_of(asked, plan), asked), rough);
   EXPECT_GT(judged.measure.error, 0.05);
   EXPECT_LT(judged.measure.bias, -0.05);
 }
 
 TEST(Judge, TheDiscDoesNotCount) {
-  Scene asked = scene({{"sun", {{"elevation_deg", 10}, {"angular_diameter_deg", 10}}},
-                       {"method", {{"scattering_orders", 1}}}});
+  Scene asked = rgb_scene({{"sun", {{"elevation_deg", 10}, {"angular_diameter_deg", 10}}},
+                           {"method", {{"scattering_orders", 1}}}});
   Plan plan;
   ExrImage image = read_frame(exr_of(asked, plan), asked);
-  EXPECT_LT(judge(engine(), asked, image).measure.error, 0.002);
-  std::vector<float> map = judged_map(engine(), asked, image);
+  EXPECT_LT(judge(device(), asked, image).measure.error, 0.002);
+  std::vector<float> map = judged_map(device(), asked, image);
   std::ptrdiff_t disc = std::ranges::count_if(map, [](float d) { return std::isnan(d); });
   EXPECT_GT(disc, 5);
   for (float d : map) EXPECT_FALSE(std::abs(d) > 0.01);
@@ -188,9 +184,9 @@ TEST(Judge, TheDiscDoesNotCount) {
 
 TEST(Judge, AnotherUnitIsConverted) {
   Scene asked =
-      scene({{"spectrum", {{"wavelengths_nm", {450, 500, 550, 600}}, {"colour", "cie"}}},
-             {"image", {{"format", "exr"}}}});
-  Frame frame = engine().render(asked);
+      rgb_scene({{"spectrum", {{"wavelengths_nm", {450, 500, 550, 600}}, {"colour", "cie"}}},
+                 {"image", {{"format", "exr"}}}});
+  Frame frame = device().render(asked);
   ExrImage usual = read_frame(encode(frame, asked), asked);
   frame.white_luminance /= 4;
   ExrImage quarter = read_frame(encode(frame, asked), asked);

@@ -7,16 +7,12 @@
 
 #include "engine/accuracy/without_wavelength.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-
-Engine& engine() {
-  static Engine the_engine;
-  return the_engine;
-}
 
 std::map<std::string, Worth> explained(const json& more) {
   json document{{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
@@ -24,24 +20,27 @@ std::map<std::string, Worth> explained(const json& more) {
                 {"image", {{"width", 64}, {"height", 36}}}};
   document.merge_patch(more);
   std::map<std::string, Worth> found;
-  for (const Worth& worth : explain(engine(), read_scene(document))) found[worth.name] = worth;
+  for (const Worth& worth : explain(device(), read_scene(document))) found[worth.name] = worth;
   return found;
 }
 
-/// A little more light at each order, so that six orders are told.
+/// With a matter that is next to nothing. What is left out has kernels of its own, which are
+/// the same for both.
+const json with_little_more{{"constituents",
+                             {{"order_2",
+                               {{"type", "absorber"},
+                                {"absorption_per_km", 1e-9},
+                                {"profile", {{"type", "uniform"}}}}}}}};
+
 const std::map<std::string, Worth>& noon() {
-  static const auto found = explained({{"preset", "earth_noon"},
-                                       {"atmosphere",
-                                        {{"constituents",
-                                          {{"order_2",
-                                            {{"type", "absorber"},
-                                             {"absorption_per_km", 1e-9},
-                                             {"profile", {{"type", "uniform"}}}}}}}}}});
+  static const auto found =
+      explained({{"preset", "earth_noon"}, {"atmosphere", with_little_more}});
   return found;
 }
 
 const std::map<std::string, Worth>& twilight() {
-  static const auto found = explained({{"preset", "earth_twilight"}});
+  static const auto found =
+      explained({{"preset", "earth_twilight"}, {"atmosphere", with_little_more}});
   return found;
 }
 
@@ -117,7 +116,7 @@ TEST(Explain, IsGivenUpWhenNobodyWaits) {
   Watch watch;
   int looks = 0;
   watch.gone = [&] { return ++looks > 3; };
-  EXPECT_THROW(explain(engine(), read_scene({{"preset", "earth_noon"}}), watch), Cancelled);
+  EXPECT_THROW(explain(device(), read_scene({{"preset", "earth_noon"}}), watch), Cancelled);
 }
 
 TEST(Explain, ItsProgressEndsAtOrBelowTheWhole) {
@@ -128,7 +127,7 @@ TEST(Explain, ItsProgressEndsAtOrBelowTheWhole) {
     EXPECT_LE(share, 1);
     last = share;
   };
-  explain(engine(),
+  explain(device(),
           read_scene({{"method", {{"scattering_orders", 1}}},
                       {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
                       {"image", {{"width", 32}, {"height", 18}}}}),

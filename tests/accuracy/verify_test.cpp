@@ -7,13 +7,14 @@
 #include "engine/accuracy/reference.h"
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
 
 TEST(Verify, StatesAnErrorThatAnIndependentReferenceFinds) {
   testing::TemporaryFolder folder;
-  Engine engine;
+  Engine& engine = device();
   for (double elevation : {60.0, 8.0}) {
     Scene scene = read_scene({{"sun", {{"elevation_deg", elevation}}},
                               {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
@@ -31,7 +32,7 @@ TEST(Verify, StatesAnErrorThatAnIndependentReferenceFinds) {
 }
 
 TEST(Verify, FindsWhatIsLeftOut) {
-  Engine engine;
+  Engine& engine = device();
   Scene scene = read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
                             {"image", {{"width", 64}, {"height", 36}}},
                             {"method", {{"name", "raymarch"}, {"verify", true}}}});

@@ -24,10 +24,6 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-json tiny_scene() {
-  return {{"image", {{"width", 16}, {"height", 8}}}, {"method", {{"name", "raymarch"}}}};
-}
-
 json sunset(int frames) {
   return {{"frames", frames}, {"to", {{"sun.elevation_deg", -6}, {"camera.pitch_deg", 30}}}};
 }

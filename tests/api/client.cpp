@@ -55,6 +55,11 @@ httplib::Client client() { return client_of(shared_daemon()); }
 
 nlohmann::json small_scene() { return {{"image", {{"width", 16}, {"height", 8}}}}; }
 
+nlohmann::json tiny_scene() {
+  return {{"image", {{"width", 16}, {"height", 8}}},
+          {"method", {{"name", "raymarch"}, {"scattering_orders", 1}}}};
+}
+
 nlohmann::json long_scene() {
   return {{"method", {{"name", "nishita"}, {"view_samples", 1000}, {"light_samples", 500}}},
           {"image", {{"width", 512}, {"height", 512}}}};

@@ -45,7 +45,7 @@ TEST(Command, RenderTakesItsFormatFromTheExtension) {
                                                                {"jpg", "\xff\xd8"}};
   for (const auto& [extension, magic] : kinds) {
     const auto file = folder / ("sky." + extension);
-    Program run({"render", "-", "-o", file}, small_scene().dump());
+    Program run({"render", "-", "-o", file}, tiny_scene().dump());
     EXPECT_EQ(run.wait(), 0) << run.err();
     EXPECT_TRUE(read_file(file).starts_with(magic)) << extension;
   }
@@ -199,7 +199,7 @@ TEST(Command, AFileThatIsNotThereIsAFailure) {
 TEST(Command, AFullDiskIsAFailure) {
   TemporaryFolder folder;
   fs::create_symlink("/dev/full", folder / "sky.png");
-  Program run({"render", "-", "-o", folder / "sky.png"}, small_scene().dump());
+  Program run({"render", "-", "-o", folder / "sky.png"}, tiny_scene().dump());
   EXPECT_EQ(run.wait(), 1);
   EXPECT_THAT(run.err(), ::testing::HasSubstr("sky.png"));
 }
@@ -224,7 +224,7 @@ TEST(Command, TheContactSheetIsOnePictureAsWideAsAsked) {
   TemporaryFolder folder;
   const auto file = folder / "sheet.png";
   Program run({"contact-sheet", "-o", file, "--width", "200", "--columns", "2", "--preset",
-               "earth", "--preset", "mars", "--preset", "airless_moon"});
+               "earth", "--preset", "earth_noon", "--preset", "airless_moon"});
   EXPECT_EQ(run.wait(), 0) << run.err();
   const auto png = read_file(file);
   ASSERT_GT(png.size(), 24u);
@@ -326,7 +326,7 @@ TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
     answer = daemon.Get("/healthz");
   }
   ASSERT_TRUE(answer);
-  EXPECT_EQ(daemon.Post("/v1/render", small_scene().dump(), "application/json")->status, 200);
+  EXPECT_EQ(daemon.Post("/v1/render", tiny_scene().dump(), "application/json")->status, 200);
   run.signal(SIGTERM);
   EXPECT_EQ(run.wait(), 0);
 }

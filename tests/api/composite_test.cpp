@@ -21,8 +21,8 @@ const std::string link =
     "/v1/composite?image.format=exr&spectrum.wavelengths_nm=[680,550,440]"
     "&method.name=raymarch&method.scattering_orders=1&image.show=[\"ground\"]";
 
-httplib::Result post(const std::string& target, const std::string& body,
-                     const httplib::Headers& headers = {}) {
+httplib::Result post_picture(const std::string& target, const std::string& body,
+                             const httplib::Headers& headers = {}) {
   return client().Post(target.c_str(), headers, body, "image/x-exr");
 }
 
@@ -49,7 +49,7 @@ void expect_refused(const httplib::Result& answer, const std::string& detail,
 }
 
 TEST(CompositeRoute, LaysTheAirOverThePictureAndSaysHow) {
-  const auto answer = post(link, card());
+  const auto answer = post_picture(link, card());
   const ExrImage image = answered(answer);
   for (float blue : image.planes[2]) {
     EXPECT_GT(blue, 0.2);
@@ -64,9 +64,9 @@ TEST(CompositeRoute, LaysTheAirOverThePictureAndSaysHow) {
 }
 
 TEST(CompositeRoute, AtDistanceZeroAnswersThePictureInItsUnit) {
-  const ExrImage same = answered(post(link, card(0.5f, 0)));
+  const ExrImage same = answered(post_picture(link, card(0.5f, 0)));
   for (float red : same.planes[0]) EXPECT_NEAR(red, 0.5, 1e-3);
-  const ExrImage scaled = answered(post(link + "&scale=3e2", card(0.5f, 0)));
+  const ExrImage scaled = answered(post_picture(link + "&scale=3e2", card(0.5f, 0)));
   for (float red : scaled.planes[0]) EXPECT_NEAR(red, 150, 0.2);
 }
 
@@ -75,34 +75,34 @@ TEST(CompositeRoute, TheTagIsOfThePictureToo) {
     EXPECT_TRUE(answer);
     return answer->get_header_value("ETag");
   };
-  const std::string one = tag(post(link, card()));
-  EXPECT_EQ(tag(post(link, card())), one);
-  EXPECT_NE(tag(post(link, card(0.6f))), one);
-  EXPECT_NE(tag(post(link + "&scale=2", card())), one);
+  const std::string one = tag(post_picture(link, card()));
+  EXPECT_EQ(tag(post_picture(link, card())), one);
+  EXPECT_NE(tag(post_picture(link, card(0.6f))), one);
+  EXPECT_NE(tag(post_picture(link + "&scale=2", card())), one);
 }
 
 TEST(CompositeRoute, AnswersInEveryFormat) {
   const std::string any =
       "/v1/composite?spectrum.wavelengths_nm=[680,550,440]&method.name=raymarch";
-  const auto png = post(any, card());
+  const auto png = post_picture(any, card());
   ASSERT_TRUE(png);
   EXPECT_TRUE(png->body.starts_with("\x89PNG")) << png->body;
-  const auto jpeg = post(any, card(), {{"Accept", "image/jpeg"}});
+  const auto jpeg = post_picture(any, card(), {{"Accept", "image/jpeg"}});
   ASSERT_TRUE(jpeg);
   EXPECT_EQ(jpeg->get_header_value("Content-Type"), "image/jpeg");
   for (const char* format : {"hdr", "npy"}) {
-    const auto answer = post(any + "&image.format=" + format, card());
+    const auto answer = post_picture(any + "&image.format=" + format, card());
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 200) << answer->body;
   }
 }
 
 TEST(CompositeRoute, TheSizeIsThePictures) {
-  EXPECT_EQ(post(link + "&image.width=16", card())->status, 200);
-  expect_refused(post(link + "&image.width=17", card()), "16", "/image/width");
-  expect_refused(post(link + "&image.height=7", card()), "8", "/image/height");
+  EXPECT_EQ(post_picture(link + "&image.width=16", card())->status, 200);
+  expect_refused(post_picture(link + "&image.width=17", card()), "16", "/image/width");
+  expect_refused(post_picture(link + "&image.height=7", card()), "8", "/image/height");
   expect_refused(
-      post(link + "&camera.projection=equirectangular", even_picture(16, 16, 0.5f, 1)),
+      post_picture(link + "&camera.projection=equirectangular", even_picture(16, 16, 0.5f, 1)),
       "/image");
 }
 
@@ -114,7 +114,7 @@ TEST(CompositeRoute, AFrameOverALimitIsRefusedBeforeItIsRead) {
   const std::int32_t last = 39999;
   const auto value = at + sizeof "dataWindow" + sizeof "box2i" + 4 + 8;
   for (std::size_t i : {0, 4}) std::memcpy(&bomb[value + i], &last, 4);
-  const auto answer = post(link, bomb);
+  const auto answer = post_picture(link, bomb);
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->status == 422 || answer->status == 400) << answer->status;
   EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
@@ -128,33 +128,35 @@ TEST(CompositeRoute, PicturesThatAreNoneAreRefusedByName) {
     return picture_file(width, height, channels);
   };
   const float nan = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
-  expect_refused(post(link, ""), "empty");
-  expect_refused(post(link, "{}"), "no OpenEXR");
-  expect_refused(post(link, card().substr(0, 300)), "EXR");
-  expect_refused(post(link, card().substr(0, card().size() - 40)), "EXR");
-  expect_refused(
-      post(link, picture_file(width, height, {{"R", plane}, {"G", plane}, {"B", plane}})),
-      "no channel Z");
-  expect_refused(
-      post(link, picture_file(width, height, {{"R", plane}, {"B", plane}, {"Z", plane}})),
-      "no channel G");
-  expect_refused(post(link, with("G", nan)), "channel G is not a number at column 0, row 4");
-  expect_refused(post(link, with("B", infinite)), "channel B is infinite");
-  expect_refused(post(link, with("Z", nan)), "channel Z is not a number");
-  expect_refused(post(link, with("Z", -1)), "channel Z is negative at column 0, row 4");
-  expect_refused(post(link, with("Z", -infinite)), "channel Z is negative");
-  EXPECT_EQ(post(link, with("Z", infinite))->status, 200);
+  expect_refused(post_picture(link, ""), "empty");
+  expect_refused(post_picture(link, "{}"), "no OpenEXR");
+  expect_refused(post_picture(link, card().substr(0, 300)), "EXR");
+  expect_refused(post_picture(link, card().substr(0, card().size() - 40)), "EXR");
+  expect_refused(post_picture(link, picture_file(width, height,
+                                                 {{"R", plane}, {"G", plane}, {"B", plane}})),
+                 "no channel Z");
+  expect_refused(post_picture(link, picture_file(width, height,
+                                                 {{"R", plane}, {"B", plane}, {"Z", plane}})),
+                 "no channel G");
+  expect_refused(post_picture(link, with("G", nan)),
+                 "channel G is not a number at column 0, row 4");
+  expect_refused(post_picture(link, with("B", infinite)), "channel B is infinite");
+  expect_refused(post_picture(link, with("Z", nan)), "channel Z is not a number");
+  expect_refused(post_picture(link, with("Z", -1)), "channel Z is negative at column 0, row 4");
+  expect_refused(post_picture(link, with("Z", -infinite)), "channel Z is negative");
+  EXPECT_EQ(post_picture(link, with("Z", infinite))->status, 200);
 }
 
 TEST(CompositeRoute, WhatIsAskedOfItIsChecked) {
   for (const char* scale : {"0", "-1", "abc", "1e13", "", "nan"}) {
-    expect_refused(post(link + "&scale=" + scale, card()), "/scale", "/scale");
+    expect_refused(post_picture(link + "&scale=" + scale, card()), "/scale", "/scale");
   }
-  expect_refused(post(link + "&scale=1&scale=2", card()), "once", "/scale");
-  expect_refused(post(link + "&planet.radius_km=-1", card()), "/planet/radius_km");
-  expect_refused(post(link + "&image.channels=spectral", card()), "spectra", "/image/channels");
-  expect_refused(post(link + "&image=5", card()), "/image");
-  ASSERT_TRUE(post(link, card(), {{"Accept", "text/html"}}));
+  expect_refused(post_picture(link + "&scale=1&scale=2", card()), "once", "/scale");
+  expect_refused(post_picture(link + "&planet.radius_km=-1", card()), "/planet/radius_km");
+  expect_refused(post_picture(link + "&image.channels=spectral", card()), "spectra",
+                 "/image/channels");
+  expect_refused(post_picture(link + "&image=5", card()), "/image");
+  ASSERT_TRUE(post_picture(link, card(), {{"Accept", "text/html"}}));
   EXPECT_EQ(client().Get("/v1/composite")->status, 405);
 }
 

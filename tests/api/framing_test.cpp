@@ -12,45 +12,48 @@ using namespace std::chrono_literals;
 
 const std::string host = "Host: here\r\n";
 
-std::string post(const std::string& headers, const std::string& body = "") {
+std::string post_text(const std::string& headers, const std::string& body = "") {
   return "POST /v1/plan HTTP/1.1\r\n" + host + headers + "\r\n" + body;
 }
 
-std::string get(const std::string& headers = "", const std::string& target = "/healthz") {
+std::string get_text(const std::string& headers = "", const std::string& target = "/healthz") {
   return "GET " + target + " HTTP/1.1\r\n" + host + headers + "\r\n";
 }
 
 const std::string closing = "Connection: close\r\n";
 
 TEST(Framing, ABodyInChunksIsRefused) {
-  const auto answer = exchange(post("Transfer-Encoding: chunked\r\n", "2\r\n{}\r\n0\r\n\r\n"));
+  const auto answer =
+      exchange(post_text("Transfer-Encoding: chunked\r\n", "2\r\n{}\r\n0\r\n\r\n"));
   EXPECT_EQ(status_of(answer), 411);
   EXPECT_NE(answer.find("application/problem+json"), std::string::npos);
   EXPECT_EQ(count(answer, "HTTP/1.1"), 1u);
 }
 
 TEST(Framing, ABodyWithoutLengthIsRefused) {
-  EXPECT_EQ(status_of(exchange(post("", "{}"))), 411);
+  EXPECT_EQ(status_of(exchange(post_text("", "{}"))), 411);
 }
 
 TEST(Framing, ALengthThatIsGivenTwiceIsRefused) {
   EXPECT_EQ(status_of(exchange(
-                post("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"))),
+                post_text("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"))),
             400);
-  EXPECT_EQ(status_of(exchange(post("Content-Length: 2\r\nContent-Length: 2\r\n", "{}"))), 400);
+  EXPECT_EQ(status_of(exchange(post_text("Content-Length: 2\r\nContent-Length: 2\r\n", "{}"))),
+            400);
 }
 
 TEST(Framing, ALengthThatIsNotANumberIsRefused) {
   for (const auto* length : {"-1", "+2", "2, 2", "0x2", "2 2", ""}) {
     EXPECT_EQ(
-        status_of(exchange(post("Content-Length: " + std::string(length) + "\r\n", "{}"))), 400)
+        status_of(exchange(post_text("Content-Length: " + std::string(length) + "\r\n", "{}"))),
+        400)
         << length;
   }
 }
 
 TEST(Framing, ABodyOverTheLimitIsRefusedBeforeItIsSent) {
-  EXPECT_EQ(status_of(exchange(post("Content-Length: 99999999999\r\n"))), 413);
-  EXPECT_EQ(status_of(exchange(post("Content-Length: 99999999999999999999999\r\n"))), 413);
+  EXPECT_EQ(status_of(exchange(post_text("Content-Length: 99999999999\r\n"))), 413);
+  EXPECT_EQ(status_of(exchange(post_text("Content-Length: 99999999999999999999999\r\n"))), 413);
 }
 
 TEST(Framing, LongBodiesShareTheirMemoryAndAnnouncedOnesTakeNone) {
@@ -60,7 +63,7 @@ TEST(Framing, LongBodiesShareTheirMemoryAndAnnouncedOnesTakeNone) {
   Daemon daemon(config);
   daemon.start();
   const auto head = [](std::size_t bytes) {
-    return post("Connection: close\r\nContent-Length: " + std::to_string(bytes) + "\r\n");
+    return post_text("Connection: close\r\nContent-Length: " + std::to_string(bytes) + "\r\n");
   };
   constexpr std::size_t mib = std::size_t{1} << 20;
   RawClient announced(daemon.port()), half_sent(daemon.port()), other(daemon.port());
@@ -80,7 +83,7 @@ TEST(Framing, LongBodiesShareTheirMemoryAndAnnouncedOnesTakeNone) {
 
 TEST(Framing, AClientThatAsksFirstIsToldToContinue) {
   RawClient raw;
-  raw.send(post("Expect: 100-continue\r\nContent-Length: 2\r\n" + closing));
+  raw.send(post_text("Expect: 100-continue\r\nContent-Length: 2\r\n" + closing));
   std::this_thread::sleep_for(100ms);
   raw.send("{}");
   const auto answer = raw.receive(60s);  // a first plan, which the server's closing ends
@@ -88,23 +91,25 @@ TEST(Framing, AClientThatAsksFirstIsToldToContinue) {
 }
 
 TEST(Framing, AnotherExpectationIsRefused) {
-  EXPECT_EQ(status_of(exchange(post("Expect: coffee\r\nContent-Length: 2\r\n", "{}"))), 417);
+  EXPECT_EQ(status_of(exchange(post_text("Expect: coffee\r\nContent-Length: 2\r\n", "{}"))),
+            417);
 }
 
 TEST(Framing, ACompressedBodyIsRefused) {
-  EXPECT_EQ(status_of(exchange(post("Content-Encoding: gzip\r\nContent-Length: 2\r\n", "{}"))),
-            415);
+  EXPECT_EQ(
+      status_of(exchange(post_text("Content-Encoding: gzip\r\nContent-Length: 2\r\n", "{}"))),
+      415);
 }
 
 TEST(Framing, AMultipartBodyIsRefused) {
   EXPECT_EQ(
-      status_of(exchange(post(
+      status_of(exchange(post_text(
           "Content-Type: multipart/form-data; boundary=x\r\nContent-Length: 2\r\n", "{}"))),
       415);
 }
 
 TEST(Framing, AnAddressThatIsTooLongIsRefused) {
-  EXPECT_EQ(status_of(exchange(get("", "/" + std::string(9000, 'a')))), 414);
+  EXPECT_EQ(status_of(exchange(get_text("", "/" + std::string(9000, 'a')))), 414);
 }
 
 TEST(Framing, AnEndlessRequestLineIsRefused) {
@@ -112,7 +117,7 @@ TEST(Framing, AnEndlessRequestLineIsRefused) {
 }
 
 TEST(Framing, HeadersThatAreTooLongAreRefused) {
-  EXPECT_EQ(status_of(exchange(get("X: " + std::string(40000, 'a') + "\r\n"))), 431);
+  EXPECT_EQ(status_of(exchange(get_text("X: " + std::string(40000, 'a') + "\r\n"))), 431);
   EXPECT_EQ(status_of(exchange("GET /healthz HTTP/1.1\r\nX: " + std::string(40000, 'a'))), 431);
 }
 
@@ -133,7 +138,7 @@ TEST(Framing, AHeadThatDripsIsGivenUpAllTheSame) {
 }
 
 TEST(Framing, ABodyThatDoesNotComeIsGivenUp) {
-  EXPECT_EQ(status_of(exchange(post("Content-Length: 10\r\n", "{"))), 408);
+  EXPECT_EQ(status_of(exchange(post_text("Content-Length: 10\r\n", "{"))), 408);
 }
 
 TEST(Framing, MalformedHeadsAreRefused) {
@@ -144,14 +149,14 @@ TEST(Framing, MalformedHeadsAreRefused) {
       "G\x01T /healthz HTTP/1.1\r\n" + host + "\r\n",
       "GET /healthz HTTP/1.1\r\n\r\n",
       "GET /healthz HTTP/1.1\r\n" + host + host + "\r\n",
-      get("no colon\r\n"),
-      get("Space : 1\r\n"),
-      get(" folded: 1\r\n"),
-      get("X: a\x01z\r\n"),
-      get("X: a\rb\r\n"),
-      get("X: a\nContent-Length: 5\r\n"),
-      get("", "/%zz"),
-      get("", "/v1/render?a=%2"),
+      get_text("no colon\r\n"),
+      get_text("Space : 1\r\n"),
+      get_text(" folded: 1\r\n"),
+      get_text("X: a\x01z\r\n"),
+      get_text("X: a\rb\r\n"),
+      get_text("X: a\nContent-Length: 5\r\n"),
+      get_text("", "/%zz"),
+      get_text("", "/v1/render?a=%2"),
   };
   for (const auto& head : heads) EXPECT_EQ(status_of(exchange(head)), 400) << head;
 }
@@ -161,16 +166,17 @@ TEST(Framing, AnotherVersionIsRefused) {
 }
 
 TEST(Framing, TheBodyOfAGetIsNeverTakenForARequest) {
-  const auto inner = get("", "/v1/limits");
+  const auto inner = get_text("", "/v1/limits");
   const auto answer =
-      exchange(get("Content-Length: " + std::to_string(inner.size()) + "\r\n") + inner);
+      exchange(get_text("Content-Length: " + std::to_string(inner.size()) + "\r\n") + inner);
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_EQ(count(answer, "HTTP/1.1"), 1u);
   EXPECT_NE(answer.find("Connection: close"), std::string::npos);
 }
 
 TEST(Framing, RequestsSentTogetherAreAnsweredInOrder) {
-  const auto answer = exchange(get() + post("Content-Length: 2\r\n", "{}") + get(closing));
+  const auto answer =
+      exchange(get_text() + post_text("Content-Length: 2\r\n", "{}") + get_text(closing));
   EXPECT_EQ(count(answer, "HTTP/1.1 200"), 3u);
   EXPECT_LT(answer.find("ok\n"), answer.find("wavelengths_nm"));
   EXPECT_LT(answer.find("wavelengths_nm"), answer.rfind("ok\n"));
@@ -183,16 +189,16 @@ TEST(Framing, HttpOneZeroIsClosedUnlessAskedOtherwise) {
 }
 
 TEST(Framing, AnAbsoluteAddressIsUnderstood) {
-  EXPECT_EQ(status_of(exchange(get(closing, "http://here/healthz"))), 200);
+  EXPECT_EQ(status_of(exchange(get_text(closing, "http://here/healthz"))), 200);
 }
 
 TEST(Framing, RequestIdsAreEchoedOnlyWhenHarmless) {
   EXPECT_NE(
-      exchange(get("X-Request-Id: Ab-1_z\r\n" + closing)).find("X-Request-Id: Ab-1_z\r\n"),
+      exchange(get_text("X-Request-Id: Ab-1_z\r\n" + closing)).find("X-Request-Id: Ab-1_z\r\n"),
       std::string::npos);
   for (const auto& id : {std::string("a%0d%0aX-Evil: 1"), std::string("a b"), std::string("\""),
                          std::string(65, 'a')}) {
-    const auto answer = exchange(get("X-Request-Id: " + id + "\r\n" + closing));
+    const auto answer = exchange(get_text("X-Request-Id: " + id + "\r\n" + closing));
     EXPECT_EQ(status_of(answer), 200);
     EXPECT_EQ(answer.find("X-Evil"), std::string::npos);
     EXPECT_EQ(answer.find("X-Request-Id: " + id + "\r\n"), std::string::npos);
@@ -200,13 +206,14 @@ TEST(Framing, RequestIdsAreEchoedOnlyWhenHarmless) {
 }
 
 TEST(Framing, RangesAreIgnored) {
-  const auto answer = exchange(get("Range: bytes=0-0,1-1\r\n" + closing));
+  const auto answer = exchange(get_text("Range: bytes=0-0,1-1\r\n" + closing));
   EXPECT_EQ(status_of(answer), 200);
   EXPECT_TRUE(answer.ends_with("ok\n"));
 }
 
 TEST(Framing, AnswersAreNeverCompressed) {
-  const auto answer = exchange(get("Accept-Encoding: gzip, br\r\n" + closing, "/v1/methods"));
+  const auto answer =
+      exchange(get_text("Accept-Encoding: gzip, br\r\n" + closing, "/v1/methods"));
   EXPECT_EQ(answer.find("Content-Encoding"), std::string::npos);
 }
 
@@ -214,7 +221,7 @@ TEST(Connections, AKeptConnectionAnswersThousandsOfRequestsAtOnce) {
   RawClient raw;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < 2000; ++i) {
-    raw.send(get());
+    raw.send(get_text());
     ASSERT_EQ(status_of(raw.receive_one()), 200) << i;
   }
   // Without TCP_NODELAY each would take 40 ms.
@@ -228,7 +235,7 @@ TEST(Connections, IdleAndDrippingClientsBlockNobody) {
     if (i % 2 == 0) idle.back()->send("GET /hea");
   }
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(status_of(exchange(get(closing))), 200);
+  EXPECT_EQ(status_of(exchange(get_text(closing))), 200);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 400ms);
 }
 
@@ -238,8 +245,8 @@ TEST(Connections, OneMoreThanThereAreThreadsIsRefused) {
   Daemon daemon(config);
   daemon.start();
   RawClient first(daemon.port()), second(daemon.port());
-  first.send(get());
-  second.send(get());
+  first.send(get_text());
+  second.send(get_text());
   EXPECT_EQ(status_of(first.receive_one()), 200);
   EXPECT_EQ(status_of(second.receive_one()), 200);
   RawClient third(daemon.port());
@@ -256,7 +263,7 @@ TEST(Connections, IdleOnesMakeRoomWhereThreadsAreFew) {
   RawClient first(daemon.port()), second(daemon.port());
   EXPECT_EQ(first.receive(), "");
   RawClient third(daemon.port());
-  third.send(get(closing));
+  third.send(get_text(closing));
   EXPECT_EQ(status_of(third.receive()), 200);
 }
 

@@ -16,7 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-const std::string tiny = "image.width=16&image.height=8&method.name=raymarch";
+const std::string tiny =
+    "image.width=16&image.height=8&method.name=raymarch&method.scattering_orders=1";
 
 struct Part {
   std::string head, body;
@@ -55,20 +56,17 @@ std::vector<Part> parts_of(const std::string& body) {
   return parts;
 }
 
-httplib::Result get(const std::string& query, const httplib::Headers& headers = {}) {
+httplib::Result get_stream(const std::string& query, const httplib::Headers& headers = {}) {
   return client().Get("/v1/stream?" + query, headers);
 }
 
-httplib::Result post(const json& body, const httplib::Headers& headers = {}) {
+httplib::Result post_stream(const json& body, const httplib::Headers& headers = {}) {
   return client().Post("/v1/stream", headers, body.dump(), "application/json");
 }
 
-json tiny_scene() {
-  return {{"image", {{"width", 16}, {"height", 8}}}, {"method", {{"name", "raymarch"}}}};
-}
-
 TEST(Stream, ASweepIsTheFramesOfItsScenes) {
-  const auto answer = get(tiny + "&frames=5&to.sun.elevation_deg=-6&sun.elevation_deg=2");
+  const auto answer =
+      get_stream(tiny + "&frames=5&to.sun.elevation_deg=-6&sun.elevation_deg=2");
   ASSERT_TRUE(answer);
   ASSERT_EQ(answer->status, 200) << answer->body;
   EXPECT_THAT(answer->get_header_value("Content-Type"),
@@ -89,7 +87,7 @@ TEST(Stream, ASweepIsTheFramesOfItsScenes) {
 }
 
 TEST(Stream, ASweepStartsAtWhatTheSceneHas) {
-  const auto parts = parts_of(get(tiny + "&frames=2&to.sun.elevation_deg=10")->body);
+  const auto parts = parts_of(get_stream(tiny + "&frames=2&to.sun.elevation_deg=10")->body);
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].body,
             client().Post("/v1/render", tiny_scene().dump(), "application/json")->body);
@@ -97,11 +95,11 @@ TEST(Stream, ASweepStartsAtWhatTheSceneHas) {
 
 TEST(Stream, ABodySweepsAsALinkDoes) {
   const json sweep{{"scene", tiny_scene()}, {"frames", 3}, {"to", {{"sun.elevation_deg", -6}}}};
-  const auto answer = post(sweep);
+  const auto answer = post_stream(sweep);
   ASSERT_TRUE(answer);
   ASSERT_EQ(answer->status, 200) << answer->body;
   const auto parts = parts_of(answer->body);
-  const auto linked = parts_of(get(tiny + "&frames=3&to.sun.elevation_deg=-6")->body);
+  const auto linked = parts_of(get_stream(tiny + "&frames=3&to.sun.elevation_deg=-6")->body);
   ASSERT_EQ(parts.size(), 3u);
   ASSERT_EQ(linked.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(parts[i].body, linked[i].body) << i;
@@ -109,7 +107,7 @@ TEST(Stream, ABodySweepsAsALinkDoes) {
 
 TEST(Stream, FramesAreMergedIntoTheScene) {
   const json patches{json::object(), {{"sun", {{"elevation_deg", 5}}}}, {{"preset", "mars"}}};
-  const auto answer = post({{"scene", tiny_scene()}, {"frames", patches}});
+  const auto answer = post_stream({{"scene", tiny_scene()}, {"frames", patches}});
   ASSERT_TRUE(answer);
   ASSERT_EQ(answer->status, 200) << answer->body;
   const auto parts = parts_of(answer->body);
@@ -126,9 +124,9 @@ TEST(Stream, ARefinementGetsBetterAndEndsWithTheScene) {
   json scene = small_scene();
   scene["method"] = {{"name", "path"}, {"samples_per_pixel", 64}};
   for (const auto& answer :
-       {post({{"scene", scene}, {"refine", true}}),
-        get("image.width=16&image.height=8&method.name=path&method.samples_per_pixel=64"
-            "&refine=true")}) {
+       {post_stream({{"scene", scene}, {"refine", true}}),
+        get_stream("image.width=16&image.height=8&method.name=path&method.samples_per_pixel=64"
+                   "&refine=true")}) {
     ASSERT_TRUE(answer);
     ASSERT_EQ(answer->status, 200) << answer->body;
     const auto parts = parts_of(answer->body);
@@ -146,7 +144,7 @@ TEST(Stream, ARefinementGetsBetterAndEndsWithTheScene) {
 }
 
 TEST(Stream, ARefinementOfAutoEndsWithTheScene) {
-  const auto answer = get("image.width=64&image.height=36&refine=true");
+  const auto answer = get_stream("image.width=64&image.height=36&refine=true");
   ASSERT_TRUE(answer);
   const auto parts = parts_of(answer->body);
   ASSERT_FALSE(parts.empty());
@@ -157,12 +155,13 @@ TEST(Stream, ARefinementOfAutoEndsWithTheScene) {
 TEST(Stream, PicturesAreWhatImgTakes) {
   for (const auto* accept : {"image/avif,image/webp,image/apng,image/svg+xml,image/*,*/*;q=0.8",
                              "multipart/x-mixed-replace", "*/*"}) {
-    const auto answer = get(tiny + "&frames=1&to.sun.elevation_deg=1", {{"Accept", accept}});
+    const auto answer =
+        get_stream(tiny + "&frames=1&to.sun.elevation_deg=1", {{"Accept", accept}});
     ASSERT_TRUE(answer);
     ASSERT_EQ(answer->status, 200) << answer->body;
     EXPECT_EQ(parts_of(answer->body).at(0).field("Content-Type"), "image/png") << accept;
   }
-  const auto jpeg = get(tiny + "&image.format=jpeg&frames=1&to.sun.elevation_deg=1");
+  const auto jpeg = get_stream(tiny + "&image.format=jpeg&frames=1&to.sun.elevation_deg=1");
   EXPECT_EQ(parts_of(jpeg->body).at(0).field("Content-Type"), "image/jpeg");
 }
 
@@ -185,14 +184,15 @@ TEST(Stream, LinksAreReadStrictly) {
            {"frames=3&to.=1", "/to."},
            {"frames=3&to.sun.elevation_deg=100", "/sun/elevation_deg"},
            {"frames=3&to.sun.elevation_deg=1&planet.radius_km=-1", "/planet/radius_km"}}) {
-    const auto answer = get(query);
+    const auto answer = get_stream(query);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 400) << query << answer->body;
     EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << query;
   }
-  EXPECT_NE(get("frames=3&to.sun.elevation_deg=900")->body.find("not 900"), std::string::npos);
-  EXPECT_EQ(get("frames=3601&to.sun.elevation_deg=1")->status, 422);
-  EXPECT_EQ(get("frames=1e300&to.sun.elevation_deg=1")->status, 400);
+  EXPECT_NE(get_stream("frames=3&to.sun.elevation_deg=900")->body.find("not 900"),
+            std::string::npos);
+  EXPECT_EQ(get_stream("frames=3601&to.sun.elevation_deg=1")->status, 422);
+  EXPECT_EQ(get_stream("frames=1e300&to.sun.elevation_deg=1")->status, 400);
 }
 
 TEST(Stream, BodiesAreReadStrictly) {
@@ -225,7 +225,7 @@ TEST(Stream, BodiesAreReadStrictly) {
            {{{"frames", {json::object(), low}}}, 400, "/frames/1/sun/elevation_deg"},
            {{{"frames", {json::object(), wide}}}, 422, "/frames/1/image/width"},
            {{{"scene", wide}, {"refine", true}}, 422, "/scene/image/width"}}) {
-    const auto answer = post(body);
+    const auto answer = post_stream(body);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, status) << body << answer->body;
     EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << body;

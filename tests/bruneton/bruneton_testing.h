@@ -3,6 +3,7 @@
 
 #include "engine/engine.h"
 #include "engine/methods/bruneton/bruneton.h"
+#include "tests/device.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer {
@@ -38,11 +39,6 @@ inline Scene hazy(double altitude_km, double sun_elevation_deg, std::optional<in
   Scene scene = oracle::reference_scene(altitude_km, sun_elevation_deg, 0.3);
   use(scene, orders, options);
   return scene;
-}
-
-inline Engine& device() {
-  static Engine engine;
-  return engine;
 }
 
 /// Over the sky and the ground of a camera in the air, evenly in the square root of the angle

@@ -13,6 +13,7 @@
 #include "engine/engine.h"
 #include "engine/optics/colour.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 #include "tests/moments/reference.h"
 
 namespace cyanometer {
@@ -25,11 +26,6 @@ using MethodOptions = std::map<std::string, double>;
 constexpr int width = 16, height = 10, pixels = width * height;
 constexpr float endless = std::numeric_limits<float>::infinity();
 const std::vector<double> wavelengths{680, 550, 440};
-
-Engine& engine() {
-  static Engine the_engine;
-  return the_engine;
-}
 
 /// A hazy Earth at three wavelengths that are the channels; half sky, half ground.
 Scene scene_with(const json& more = json::object()) {
@@ -127,9 +123,9 @@ TEST(Composite, OfNothingInTheWayIsThePlainFrame) {
     const Scene scene = scene_with(more);
     for (const std::string& method : method_names()) {
       const Plan plan = quick_plan_of(method);
-      const Samples plain = values(engine().render(scene, plan));
+      const Samples plain = values(device().render(scene, plan));
       for (const float far : {endless, 1e30f}) {
-        const Frame frame = engine().composite(scene, picture_of(0, far), plan);
+        const Frame frame = device().composite(scene, picture_of(0, far), plan);
         expect_equal(values(frame), plain, method);
       }
     }
@@ -140,10 +136,10 @@ TEST(Composite, SkyPixelsOfAPictureWithObjectsAreThoseOfThePlainFrame) {
   const Scene scene = scene_with();
   for (const std::string& method : method_names()) {
     const Plan plan = quick_plan_of(method);
-    const Samples plain = values(engine().render(scene, plan));
+    const Samples plain = values(device().render(scene, plan));
     Picture picture = picture_of(0, endless);
     for (int i = 0; i < pixels; i += 2) picture.distance_km[i] = 3;
-    const Samples mixed = values(engine().composite(scene, picture, plan));
+    const Samples mixed = values(device().composite(scene, picture, plan));
     for (int i = 1; i < pixels; i += 2) ASSERT_EQ(mixed[i], plain[i]) << method;
     for (int i = 0; i < pixels; i += 2) ASSERT_LT(mixed[i][2], plain[i][2]) << method;
   }
@@ -152,7 +148,7 @@ TEST(Composite, SkyPixelsOfAPictureWithObjectsAreThoseOfThePlainFrame) {
 TEST(Composite, AtDistanceZeroIsThePicture) {
   const Scene scene = scene_with();
   for (const std::string& method : method_names()) {
-    const Frame frame = engine().composite(scene, picture_of(0.7f, 0), quick_plan_of(method));
+    const Frame frame = device().composite(scene, picture_of(0.7f, 0), quick_plan_of(method));
     for (const auto& pixel : values(frame)) {
       for (double value : pixel) ASSERT_NEAR(value, 0.7, 1e-6) << method;
     }
@@ -185,7 +181,7 @@ TEST(Composite, BehindEvenAirIsTheClosedForm) {
     // The midpoint rule has no exact column of the light.
     const double exact = method == "nishita" ? 2e-3 : method == "hillaire" ? 2e-3 : 2e-4;
     for (const double km : {0.001, 0.5, 4.0, 20.0}) {
-      const Frame frame = engine().composite(
+      const Frame frame = device().composite(
           scene, picture_of(1, static_cast<float>(km)),
           quick_plan_of(method, method == "nishita" ? MethodOptions{{"view_samples", 64}}
                                                     : MethodOptions{}));
@@ -221,9 +217,9 @@ TEST(Composite, OfTheGroundIsTheAirThatThePlainFrameShowsBeforeIt) {
   for (const std::string& method : method_names()) {
     const Plan plan = quick_plan_of(
         method, method == "path" ? MethodOptions{{"samples_per_pixel", 256}} : MethodOptions{});
-    const Frame plain = engine().render(scene, plan);
+    const Frame plain = device().render(scene, plan);
     const Picture picture = picture_of_ground(scene, 0.3f);
-    const Frame frame = engine().composite(scene, picture, plan);
+    const Frame frame = device().composite(scene, picture, plan);
     const Samples air = values(frame, "inscatter"), wanted = values(plain, "inscatter");
     // A part of a ray has nodes, or walks, of its own.
     EXPECT_LT(measure_error(air, wanted).error, method == "path" ? 0.05 : 0.01) << method;
@@ -246,7 +242,7 @@ TEST(Composite, AirBeforeAnObjectGrowsWithItsDistanceAndHidesIt) {
     for (const float km : {0.01f, 0.1f, 1.0f, 4.0f, 30.0f, 200.0f}) {
       const Plan plan = quick_plan_of(
           method, method == "nishita" ? MethodOptions{{"view_samples", 512}} : MethodOptions{});
-      const Frame frame = engine().composite(scene, picture_of(0, km), plan);
+      const Frame frame = device().composite(scene, picture_of(0, km), plan);
       const Samples now = values(frame, "inscatter"), t = values(frame, "transmittance");
       // Of two walks' results the noise may be more than the difference.
       const double slack = method == "path" ? 0.1 : 1e-4;
@@ -267,7 +263,7 @@ TEST(Composite, TransmittancesOfPartsMultiply) {
   const auto up = [](double altitude_km, double length_km) {
     const Scene scene = scene_with(
         {{"camera", {{"altitude_km", altitude_km}, {"pitch_deg", 90}, {"fov_deg", 1}}}});
-    return values(engine().composite(scene, picture_of(0, static_cast<float>(length_km)),
+    return values(device().composite(scene, picture_of(0, static_cast<float>(length_km)),
                                      plan_of("raymarch")),
                   "transmittance")[pixels / 2 + width / 2];
   };
@@ -280,9 +276,9 @@ TEST(Composite, AnObjectHidesGroundDiscAndStarsAndTheAirDimsWhatLiesBeyondIt) {
                                   {"sun", {{"angular_diameter_deg", 20}}},
                                   {"image", {{"show", {"sun", "stars", "ground"}}}}});
   const Plan plan = plan_of("moments");
-  const Samples plain_sun = values(engine().render(scene, plan), "sun");
-  const Frame objects = engine().composite(scene, picture_of(0, 1e6f), plan);
-  const Frame background = engine().composite(scene, picture_of(0.2f, endless), plan);
+  const Samples plain_sun = values(device().render(scene, plan), "sun");
+  const Frame objects = device().composite(scene, picture_of(0, 1e6f), plan);
+  const Frame background = device().composite(scene, picture_of(0.2f, endless), plan);
   const Samples through = values(background, "transmittance"), sun = values(background, "sun"),
                 ground = values(background, "ground");
   double disc = 0;
@@ -302,7 +298,7 @@ TEST(Composite, LayersAddUpToTheFrame) {
   Picture picture = scattered_picture(300);
   for (int i = 0; i < pixels; i += 3) picture.distance_km[i] = endless;
   for (auto& plane : picture.rgb) plane.assign(pixels, 0.25f);
-  const Frame frame = engine().composite(scene, picture, plan_of("moments"));
+  const Frame frame = device().composite(scene, picture, plan_of("moments"));
   const Samples all = values(frame);
   Samples sum(pixels, {0, 0, 0});
   for (const char* layer : {"inscatter", "ground", "sun"}) {
@@ -333,7 +329,7 @@ TEST(Composite, TheTransmittanceIsExactToAThousandthWhateverIsAsked) {
     oracle::Adaptive oracle(pack<double>(make_problem(scene, many)));
     Physics<double> camera = pack<double>(make_problem(scene, many));
     for (const float km : {0.3f, 5.0f, 40.0f, 1000.0f}) {
-      const Frame frame = engine().composite(scene, picture_of(0, km), coarse);
+      const Frame frame = device().composite(scene, picture_of(0, km), coarse);
       const Samples through = values(frame, "transmittance");
       for (int i = 0; i < pixels; i += 7) {
         auto path = camera.path_from_camera(camera.pixel_ray(i).direction);
@@ -406,7 +402,7 @@ TEST(Composite, OrderOneIsTheIntegralAlongThePartOfTheRay) {
     const Picture picture = scattered_picture(view.longest_km);
     const Samples wanted = adaptive_values(scene, picture);
     const auto error = [&](const std::string& method, const MethodOptions& options) {
-      return measure_error(values(engine().composite(scene, picture, plan_of(method, options)),
+      return measure_error(values(device().composite(scene, picture, plan_of(method, options)),
                                   "inscatter"),
                            wanted)
           .error;
@@ -431,7 +427,7 @@ TEST(Composite, AllOrdersAgreeWithRandomWalksWithinWhatTheMethodStates) {
     const Picture picture = scattered_picture(view.longest_km);
     const auto walked = [&](double seed) {
       return values(
-          engine().composite(scene, picture,
+          device().composite(scene, picture,
                              plan_of("path", {{"samples_per_pixel", 1024}, {"seed", seed}})),
           "inscatter");
     };
@@ -441,7 +437,7 @@ TEST(Composite, AllOrdersAgreeWithRandomWalksWithinWhatTheMethodStates) {
       Scene asked = scene;
       asked.method.name = method;
       asked.method.options = plan_of(method).options;
-      const Frame frame = engine().composite(asked, picture);
+      const Frame frame = device().composite(asked, picture);
       const EstimatedError error = measure_error(values(frame, "inscatter"), a, b);
       std::printf("%s, %s: stated %.4f, measured %.4f (%.4f to %.4f)\n", view.name, method,
                   frame.plan.expected_error, error.measure.error, error.low, error.high);
@@ -462,7 +458,7 @@ TEST(Composite, WalksToAnEndAgreeWithMomentTablesInDoubleAlongThePart) {
     const Picture picture = scattered_picture(view.longest_km);
     Scene once = scene;
     once.method.scattering_orders = 1;
-    const Samples first = values(engine().composite(once, picture, plan_of("raymarch")));
+    const Samples first = values(device().composite(once, picture, plan_of("raymarch")));
     Samples wanted;
     for (int i = 0; i < pixels; ++i) {
       const glm::dvec4 further = reference.further_radiance(
@@ -473,7 +469,7 @@ TEST(Composite, WalksToAnEndAgreeWithMomentTablesInDoubleAlongThePart) {
       }
     }
     const auto walked = [&](double seed) {
-      return values(engine().composite(
+      return values(device().composite(
           scene, picture, plan_of("path", {{"samples_per_pixel", 2048}, {"seed", seed}})));
     };
     const EstimatedError walks = measure_error(wanted, walked(1), walked(2));
@@ -481,9 +477,9 @@ TEST(Composite, WalksToAnEndAgreeWithMomentTablesInDoubleAlongThePart) {
     EXPECT_NEAR(walks.measure.bias, 0, 0.004) << view.name;
     std::printf("%s: walks and tables differ by %.4f (%.4f to %.4f), bias %.4f\n", view.name,
                 walks.measure.error, walks.low, walks.high, walks.measure.bias);
-    const Samples moments = values(engine().composite(scene, picture, plan_of("moments")));
+    const Samples moments = values(device().composite(scene, picture, plan_of("moments")));
     EXPECT_LT(measure_error(moments, wanted).error, 0.006) << view.name;
-    const Samples tables = values(engine().composite(scene, picture, plan_of("bruneton")));
+    const Samples tables = values(device().composite(scene, picture, plan_of("bruneton")));
     EXPECT_LT(measure_error(tables, wanted).error, 0.006) << view.name;
   }
 }

@@ -9,6 +9,7 @@
 #include "engine/scene/document.h"
 #include "engine/stability/brightest.h"
 #include "engine/stability/row.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
@@ -47,11 +48,10 @@ TEST(Brightest, OfOneOrderIsThePeakOfThePhaseFunctionInTheUnitOfTheSun) {
 TEST(Brightest, IsNearlyReachedByABeamThatComesStraightBack) {
   // A backward peak, the sun behind the camera: light that is scattered at a depth is dimmed as
   // much on its way in as on its way out, and half of it is seen.
-  static Engine engine;
   static const Watch watch;
   json scene = fog({{"type", "henyey_greenstein"}, {"g", -0.6}});
   scene["sun"]["elevation_deg"] = 90;
-  Trial asked(engine, "raymarch", {}, 1, watch);
+  Trial asked(device(), "raymarch", {}, 1, watch);
   double seen = asked.look(scene, {{-90, 0}}).radiance[0][0];
   double most = bound(scene);
   EXPECT_LT(seen, most);

@@ -9,16 +9,12 @@
 #include "engine/scene/document.h"
 #include "engine/stability/random_trials.h"
 #include "engine/stability/row.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 Trial trial(const char* method) {
   static const Watch watch;

@@ -6,16 +6,12 @@
 #include "engine/accuracy/error.h"
 #include "engine/engine.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 Radiances traced(const json& document, bool march) {
   Scene scene = read_scene(document);

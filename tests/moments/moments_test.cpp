@@ -8,6 +8,7 @@
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 #include "tests/moments/reference.h"
 #include "tests/oracle/scenes.h"
 
@@ -17,11 +18,6 @@ namespace {
 using oracle::reference_scene;
 using oracle::towards;
 using Samples = std::vector<std::vector<double>>;
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 MethodChoice chosen(const std::string& name,
                     const std::map<std::string, double>& options = {}) {

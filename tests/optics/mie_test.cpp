@@ -12,7 +12,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Bohren and Huffman 1983, appendix A: a sphere of radius 0.525 um and index 1.55 at 632.8 nm.
 TEST(Mie, AgreesWithTheExampleOfBohrenAndHuffman) {

@@ -8,7 +8,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(PhaseTable, OfAConstantIntegratesToTheSphere) {
   EXPECT_NEAR(sphere_integral({0, pi}, {1, 1}), 4 * pi, 1e-12);

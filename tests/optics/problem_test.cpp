@@ -13,7 +13,7 @@
 namespace cyanometer {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Scene with(const std::string& name, Constituent constituent) {
   Scene scene;

@@ -3,16 +3,12 @@
 #include <map>
 
 #include "engine/accuracy/error.h"
+#include "tests/device.h"
 #include "tests/oracle/march.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::oracle {
 namespace {
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 /// The directions of the published table, by the camera and the sun that they belong to.
 std::vector<std::pair<Scene, std::vector<Direction>>> published_views() {

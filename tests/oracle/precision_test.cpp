@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/accuracy/error.h"
+#include "tests/device.h"
 #include "tests/oracle/march.h"
 #include "tests/oracle/scenes.h"
 
@@ -32,14 +33,13 @@ double error_of_floats(const Scene& scene, const Radiances& found,
 }
 
 TEST(Precision, OfTurnedRoundingsIsThatOfFloats) {
-  Engine engine;
   for (auto [altitude_km, sun_deg] : {std::pair(0.0, 60.0), {0.0, 5.0}, {10.0, -4.0}}) {
     Scene scene = reference_scene(altitude_km, sun_deg, 0.3);
     for (const MethodOption& option : methods().front().options)
       scene.method.options[option.name] = option.default_value;
     const std::vector<Direction> directions = sample_directions(scene, 256);
     const double floats =
-        error_of_floats(scene, engine.radiance(scene, directions, false), directions);
+        error_of_floats(scene, device().radiance(scene, directions, false), directions);
     const double turned = trial().measure(scene, "nishita", {}).error;
     std::printf("%g km, sun at %g deg: floats are wrong by %.1e, turned roundings say %.1e\n",
                 altitude_km, sun_deg, floats, turned);

@@ -1,15 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/accuracy/adaptive.h"
+#include "tests/device.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::oracle {
 namespace {
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 Scene raymarched(double altitude_km, double sun_elevation_deg, int view_nodes = 6) {
   Scene scene = reference_scene(altitude_km, sun_elevation_deg, 0.3);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/gauss_legendre.h"
+#include "tests/device.h"
 #include "tests/oracle/scenes.h"
 #include "tests/path/statistics.h"
 #include "tests/path/walks.h"
@@ -17,11 +18,6 @@ using oracle::towards;
 
 constexpr double incident = 1;
 constexpr int slices = 64;  // of 1024 walks and more
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 void set_walks(Scene& scene, int walks, int seed) {
   scene.method.name = "path";
@@ -202,9 +198,8 @@ TEST(PathTracing, OfSixteenOrdersIsNearlyThatOfAll) {
   }
 }
 
-/// Light of a low sun comes through thick haze by many small turns. Where a walk was turned to
-/// the sky's brightest parts at each of them, these walks had half of this noise more than
-/// thrice.
+/// Light of a low sun comes through thick haze by many small turns: noise 0.068. While each of
+/// them might go to the sky's brightest parts instead it was 0.110.
 TEST(PathTracing, FollowsForwardPeaksThroughHazeUnderALowSun) {
   Scene scene = earth(0, 5, 1024);
   scene.atmosphere.constituents["aerosol"] = {
@@ -214,7 +209,7 @@ TEST(PathTracing, FollowsForwardPeaksThroughHazeUnderALowSun) {
   double logarithms = 0;
   for (std::size_t i = 0; i < found.radiance.size(); ++i)
     logarithms += std::log((*found.standard_error)[i][1] / found.radiance[i][1]);
-  EXPECT_LT(std::exp(logarithms / 24), 0.1);
+  EXPECT_LT(std::exp(logarithms / 24), 0.085);
 }
 
 TEST(PathTracing, StatesStandardErrorsByWhichSeedsDiffer) {

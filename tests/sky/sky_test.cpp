@@ -11,14 +11,10 @@
 #include "engine/optics/colour.h"
 #include "engine/problem.h"
 #include "engine/scene/document.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 constexpr double degree = std::numbers::pi / 180;
 

@@ -9,14 +9,10 @@
 #include "engine/stability/report.h"
 #include "engine/stability/suite.h"
 #include "tests/accuracy/temporary_folder.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
-
-Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 /// The methods share the references, which take most of the time.
 StabilityPoint at_its_hardest(const StabilityRow& row, const std::string& method) {

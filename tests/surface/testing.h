@@ -12,16 +12,12 @@
 #include "engine/surface/maps.h"
 #include "tests/accuracy/temporary_folder.h"
 #include "tests/composite/picture_file.h"
+#include "tests/device.h"
 #include "tests/oracle/scenes.h"
 
 namespace cyanometer::surface_testing {
 
 using P = Physics<double>;
-
-inline Engine& device() {
-  static Engine engine;
-  return engine;
-}
 
 /// Every matter alike, no sea, no relief: ground of one albedo, by another way.
 inline ProceduralSurface even_world(double albedo) {
