@@ -795,15 +795,15 @@ std::vector<bool> measured_pixels(const Scene& scene) {
   return measured;
 }
 
-void Engine::warm() {
+void Engine::warm(const Watch& watch) {
   using nlohmann::json;
   json small{{"image", {{"width", 16}, {"height", 16}}}};
   for (const char* projection : {"perspective", "fisheye"}) {
     small["camera"]["projection"] = projection;
-    render(read_scene(small));
+    render(read_scene(small), watch);
   }
   if (!parts_->profiles.empty() && parts_->profile.evaluations_per_ms.empty())
-    measure_profile();
+    measure_profile(watch);
 }
 
 std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
@@ -821,9 +821,10 @@ std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
     constexpr double long_ms = 500;
     std::vector<double> times;
     do {
+      watch.check();
       forget_tables();
       double tables_before = tables().making_ms;
-      double frame_ms = render(scene, plan, watch).render_ms;
+      double frame_ms = render(scene, plan).render_ms;  // without others in between
       times.push_back(frame_ms + tables().making_ms - tables_before);
     } while (times.size() < repeats && times.front() < long_ms);
     std::ranges::sort(times);

@@ -232,8 +232,8 @@ class Engine {
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();
   /// Dispatches every pipeline once, so that the first request finds them compiled; and at the
-  /// first start on a device measures its profile, where profiles are kept.
-  void warm();
+  /// first start on a device measures its profile, where profiles are kept. @throws Cancelled
+  void warm(const Watch& watch = {});
   /// Measures how fast the device is, some seconds, keeps it, and plans by it from now on.
   /// @returns evaluations a millisecond by method
   std::map<std::string, double> measure_profile(const Watch& watch = {});

@@ -187,10 +187,8 @@ bool RenderQueue::make_engine(std::string reason) {
     try {
       set_engine(nullptr);  // before the next one: there may be no room for two
       set_engine(std::make_unique<Engine>(options_.engine));
-      if (options_.warm) engine_->warm();
+      if (options_.warm) warm_up();
       engine_->inject(std::exchange(options_.faults, {}));
-      const std::lock_guard lock(mutex_);
-      device_ = engine_->device();
       ready_ = true;
       return true;
     } catch (const DeviceLost& lost) {
@@ -205,9 +203,31 @@ bool RenderQueue::make_engine(std::string reason) {
   return false;
 }
 
+void RenderQueue::warm_up() {
+  Entry unreckoned;
+  Watch watch;
+  watch.gone = [&] {
+    give_way(unreckoned);
+    const std::lock_guard lock(mutex_);
+    return stopping_;
+  };
+  const Attention attention(watch);
+  ++jobs_open_;
+  try {
+    engine_->warm(watch);
+  } catch (const Cancelled&) {
+    // Who still waits is served, and compiles what that needs.
+  } catch (...) {
+    --jobs_open_;
+    throw;
+  }
+  --jobs_open_;
+}
+
 void RenderQueue::set_engine(std::unique_ptr<Engine> engine) {
   const std::lock_guard lock(mutex_);
   engine_.swap(engine);
+  if (engine_) device_ = engine_->device();
   table_bytes_ = 0;
 }
 

@@ -118,6 +118,8 @@ class RenderQueue {
   void work();
   bool make_engine(std::string reason);
   void set_engine(std::unique_ptr<Engine> engine);
+  /// Gives way to all that is known to take less, and ends when the queue does.
+  void warm_up();
   std::shared_ptr<Entry> next();
   std::shared_ptr<Entry> much_shorter_than(const Entry& running);
   bool fits(const Entry& entry) const;

@@ -119,6 +119,13 @@ TEST(Queue, AShortJobIsDoneWhileALongOneRuns) {
   EXPECT_GE(working.end(), 50);
 }
 
+TEST(Queue, AtItsStartAJobIsDoneWhileKernelsAreCompiledAhead) {
+  RenderQueue queue({.warm = true});
+  run_later(queue, 100).get();
+  EXPECT_FALSE(queue.ready());
+  EXPECT_EQ(queue.counts().gave_way, 1u);
+}
+
 TEST(Queue, AJobOfTheSameLengthWaits) {
   RenderQueue queue({.warm = false});
   Working working(queue, 1000);
