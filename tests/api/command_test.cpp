@@ -253,7 +253,7 @@ TEST(Command, HealthProbesADaemon) {
 TEST(Serve, SigtermFinishesWhatIsInFlightAndExitsWithZero) {
   Program run({"serve", "--listen", "127.0.0.1:0"});
   httplib::Client daemon("127.0.0.1", run.port());
-  daemon.set_read_timeout(60);
+  daemon.set_read_timeout(300);
   auto scene = small_scene();
   scene["method"] = {{"name", "nishita"}, {"view_samples", 200}, {"light_samples", 200}};
   auto answer = std::async(std::launch::async, [&] {
@@ -319,7 +319,7 @@ TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
   }
   Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(port)}, "", "/dev/full");
   httplib::Client daemon("127.0.0.1", port);
-  daemon.set_read_timeout(60);
+  daemon.set_read_timeout(300);
   httplib::Result answer = daemon.Get("/healthz");
   for (int i = 0; i < 600 && !answer; ++i) {
     std::this_thread::sleep_for(10ms);
