@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every preset through every method; some twenty minutes of two cores, most of them for the kernels of each.
+# Every preset through every method; some three quarters of an hour of two cores, most of it for the kernels of each.
 set -euo pipefail
 
 ./cyanometer build
