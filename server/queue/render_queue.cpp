@@ -192,8 +192,8 @@ bool RenderQueue::make_engine(std::string reason) {
       ready_ = true;
       return true;
     } catch (const DeviceLost& lost) {
-      ++losses_in_a_row_;
       reason = lost.what();
+      count_loss(reason);
     } catch (const std::exception& error) {
       reason = error.what();
       break;
@@ -357,13 +357,17 @@ void RenderQueue::attempt(Entry& entry) {
 
 void RenderQueue::replace_device(const std::string& reason) {
   ready_ = false;
+  count_loss(reason);
+  make_engine(reason);
+}
+
+void RenderQueue::count_loss(const std::string& reason) {
   {
     const std::lock_guard lock(mutex_);
     ++counts_.device_lost;
   }
   ++losses_in_a_row_;
   options_.log("device lost: " + reason);
-  make_engine(reason);
 }
 
 void RenderQueue::finish(Entry& entry, std::exception_ptr error) {

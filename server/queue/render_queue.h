@@ -131,6 +131,7 @@ class RenderQueue {
   void attempt(Entry& entry);
   void give_way(Entry& running);
   void replace_device(const std::string& reason);
+  void count_loss(const std::string& reason);
   void fail(const std::string& reason);
   void finish(Entry& entry, std::exception_ptr error);
   int retry_after_s() const;

@@ -46,7 +46,7 @@ struct Served {
   httplib::Client client() const {
     httplib::Client made("127.0.0.1", port);
     made.set_tcp_nodelay(true);
-    made.set_read_timeout(300);
+    made.set_read_timeout(60);
     return made;
   }
   bool ready() const {

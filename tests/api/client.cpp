@@ -47,6 +47,7 @@ httplib::Client client_of(const Daemon& daemon) {
   httplib::Client client("127.0.0.1", daemon.port());
   client.set_keep_alive(true);
   client.set_tcp_nodelay(true);
+  // A first frame compiles its kernels, on slow machines for more than a minute.
   client.set_read_timeout(300);
   return client;
 }

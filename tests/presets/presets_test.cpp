@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "engine/methods/method.h"
 #include "engine/scene/document.h"
@@ -28,8 +30,9 @@ json small_frame(const std::string& preset, const std::string& method) {
 class EveryPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPreset, IsFiniteAndNotNegativeByEveryMethod) {
-  for (const char* method :
-       {"auto", "nishita", "raymarch", "hillaire", "bruneton", "moments"}) {
+  std::vector<std::string> names{"auto"};
+  for (const MethodDescription& method : methods()) names.push_back(method.name);
+  for (const std::string& method : names) {
     const Frame frame = device().render(read_scene(small_frame(GetParam(), method)));
     for (const auto& plane : frame.planes) {
       for (int pixel = 0; pixel < frame.width * frame.height; ++pixel) {

@@ -86,10 +86,8 @@ double straight_on(const Medium& medium, const Coefficients& chi, int degree) {
     double scattering = medium.scattering_per_km[w];
     double extinction = scattering + medium.absorption_per_km[w];
     double left_out = std::max(chi[w][degree + 1], 0.0);
-    if (extinction > 0) {
-      double more = left_out;
-      share = std::min(share, left_out * (1 + more) / 2 * scattering / extinction);
-    }
+    if (extinction > 0)
+      share = std::min(share, left_out * (1 + left_out) / 2 * scattering / extinction);
   }
   return share;
 }
