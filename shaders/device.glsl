@@ -10,6 +10,8 @@
 #define Vec4 vec4
 #define CONSTANT const
 #define UNROLL [[unroll]]
+// Of loops that are long when unrolled: compiling takes seconds then, more than by their length.
+#define ROLLED [[dont_unroll]]
 #define ARRAY(T, name, n) in T name[n]
 #define OUT_ARRAY(T, name, n) out T name[n]
 #define INOUT_ARRAY(T, name, n) inout T name[n]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -116,9 +117,16 @@ struct Commands::State {
 
   void make();
   void begin();
-  void before_step(Order order);
+  /// Of work that is recorded when it is submitted, for by then its pipelines are made.
+  void add(Order order, std::function<void()> step) {
+    steps.push_back({order, std::move(step)});
+  }
+  void record();
+  void wait_for_previous();
+  void show_to_host();
   VkDescriptorSet bind(const Kernel::Program& program, std::span<const Binding> bindings);
-  void end();
+  void bind_pipeline(Kernel::Program& program, const Specialization& specialization,
+                     const Kernel::Program::PipelineToBe& made);
   void submit();
   /// False where the work has not ended in time.
   bool wait(std::chrono::nanoseconds patience);
@@ -131,9 +139,12 @@ struct Commands::State {
   Owned<VkQueryPool, &vkDestroyQueryPool> clock;
   DescriptorSets sets;
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  std::vector<std::shared_ptr<const void>> kept;  ///< what the recorded work uses
-  bool recording = false;
-  bool first_step = true;
+  std::vector<std::shared_ptr<const void>> kept;  ///< what the work uses
+  struct Step {
+    Order order;
+    std::function<void()> record;
+  };
+  std::vector<Step> steps;
 };
 
 void Commands::State::make() {
@@ -161,30 +172,45 @@ void Commands::State::make() {
 }
 
 void Commands::State::begin() {
-  recording = false;
-  check(vkResetCommandPool(core->device, *pool, 0), "vkResetCommandPool");
+  steps.clear();
   kept.clear();
   sets.give_back();
+}
+
+void Commands::State::record() {
+  check(vkResetCommandPool(core->device, *pool, 0), "vkResetCommandPool");
   VkCommandBufferBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
-  recording = true;
-  first_step = true;
-  if (!*clock) return;
-  vkCmdResetQueryPool(commands, *clock, 0, 2);
-  vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, *clock, 0);
+  if (*clock) {
+    vkCmdResetQueryPool(commands, *clock, 0, 2);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, *clock, 0);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i > 0 && steps[i].order == Order::after_previous) wait_for_previous();
+    steps[i].record();
+  }
+  show_to_host();
+  if (*clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, *clock, 1);
+  check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
 }
 
-void Commands::State::before_step(Order order) {
-  if (!first_step && order == Order::after_previous) {
-    VkMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = kWrites;
-    barrier.dstAccessMask = kReads | kWrites;
-    vkCmdPipelineBarrier(commands, kWork, kWork, 0, 1, &barrier, 0, nullptr, 0, nullptr);
-  }
-  first_step = false;
+void Commands::State::wait_for_previous() {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = kWrites;
+  barrier.dstAccessMask = kReads | kWrites;
+  vkCmdPipelineBarrier(commands, kWork, kWork, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+void Commands::State::show_to_host() {
+  VkMemoryBarrier barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  barrier.srcAccessMask = kWrites;
+  barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;
+  vkCmdPipelineBarrier(commands, kWork, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,
+                       0, nullptr);
 }
 
 VkDescriptorSet Commands::State::bind(const Kernel::Program& program,
@@ -210,16 +236,15 @@ VkDescriptorSet Commands::State::bind(const Kernel::Program& program,
   return set;
 }
 
-void Commands::State::end() {
-  VkMemoryBarrier barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-  barrier.srcAccessMask = kWrites;
-  barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;
-  vkCmdPipelineBarrier(commands, kWork, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,
-                       0, nullptr);
-  if (*clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, *clock, 1);
-  recording = false;
-  check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+void Commands::State::bind_pipeline(Kernel::Program& program,
+                                    const Specialization& specialization,
+                                    const Kernel::Program::PipelineToBe& made) {
+  try {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, **made.get());
+  } catch (...) {
+    program.forget(specialization);
+    throw;
+  }
 }
 
 void Commands::State::submit() {
@@ -283,45 +308,44 @@ void Commands::dispatch(const Kernel& kernel, const Specialization& specializati
               " bytes of push constants was given " + std::to_string(push.size()));
   for (const Binding& binding : bindings) require_bindable(binding, limits);
   require_groups(groups, limits);
-  const auto pipeline = program.pipeline(specialization);
-
-  if (!state_->recording) begin();
-  state_->before_step(order);
-  const VkCommandBuffer commands = state_->commands;
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, **pipeline);
   const VkDescriptorSet set = state_->bind(program, bindings);
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, *program.layout, 0, 1, &set,
-                          0, nullptr);
-  if (!push.empty())
-    vkCmdPushConstants(commands, *program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                       static_cast<std::uint32_t>(push.size()), push.data());
-  vkCmdDispatch(commands, groups.x, groups.y, groups.z);
   state_->keep(kernel.program());
-  state_->keep(pipeline);
+  state_->add(order, [state = state_.get(), &program, set, specialization, groups,
+                      pipeline = program.pipeline(specialization),
+                      push = std::vector(push.begin(), push.end())] {
+    state->bind_pipeline(program, specialization, pipeline);
+    const VkCommandBuffer commands = state->commands;
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, *program.layout, 0, 1,
+                            &set, 0, nullptr);
+    if (!push.empty())
+      vkCmdPushConstants(commands, *program.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                         static_cast<std::uint32_t>(push.size()), push.data());
+    vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+  });
 }
 
 void Commands::copy(const Binding& from, const Binding& to, Order order) {
   require_inside(from);
   require_inside(to);
   require(size_of(from) == size_of(to), "a copy of " + text_of(from) + " to " + text_of(to));
-  if (!state_->recording) begin();
-  state_->before_step(order);
-  const VkBufferCopy region{from.offset, to.offset, size_of(from)};
-  vkCmdCopyBuffer(state_->commands, *from.buffer.allocation()->buffer,
-                  *to.buffer.allocation()->buffer, 1, &region);
   state_->keep(from.buffer.allocation());
   state_->keep(to.buffer.allocation());
+  const VkBufferCopy region{from.offset, to.offset, size_of(from)};
+  state_->add(order, [state = state_.get(), region, from = *from.buffer.allocation()->buffer,
+                      to = *to.buffer.allocation()->buffer] {
+    vkCmdCopyBuffer(state->commands, from, to, 1, &region);
+  });
 }
 
 void Commands::fill(const Binding& to, std::uint32_t value, Order order) {
   require_inside(to);
   require(to.offset % 4 == 0 && size_of(to) % 4 == 0,
           text_of(to) + ": a fill takes multiples of 4");
-  if (!state_->recording) begin();
-  state_->before_step(order);
-  vkCmdFillBuffer(state_->commands, *to.buffer.allocation()->buffer, to.offset, size_of(to),
-                  value);
   state_->keep(to.buffer.allocation());
+  state_->add(order, [state = state_.get(), to = *to.buffer.allocation()->buffer,
+                      offset = to.offset, size = size_of(to), value] {
+    vkCmdFillBuffer(state->commands, to, offset, size, value);
+  });
 }
 
 std::chrono::nanoseconds Commands::usual_patience() const {
@@ -330,10 +354,9 @@ std::chrono::nanoseconds Commands::usual_patience() const {
 
 double Commands::submit_and_wait(std::optional<std::chrono::nanoseconds> given) {
   const std::chrono::nanoseconds patience = given.value_or(usual_patience());
-  if (!state_->recording) begin();
-  state_->end();
   const std::shared_ptr<Device::Core> core = state_->core;
   try {
+    state_->record();
     state_->submit();
     if (!state_->wait(patience)) {
       abandon(std::move(state_));
@@ -343,7 +366,7 @@ double Commands::submit_and_wait(std::optional<std::chrono::nanoseconds> given) 
                        std::to_string(std::chrono::duration<double>(patience).count()) + " s");
     }
     const double ms = state_->elapsed_ms();
-    state_->kept.clear();
+    begin();
     return ms;
   } catch (const DeviceLost&) {
     core->lost = true;

@@ -10,11 +10,11 @@
 namespace cyanometer::vulkan {
 namespace {
 
-void make_module(Kernel::Program& program, std::span<const std::uint32_t> spirv) {
+void make_module(Kernel::Program& program) {
   VkShaderModuleCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  info.codeSize = spirv.size_bytes();
-  info.pCode = spirv.data();
+  info.codeSize = std::span(program.spirv).size_bytes();
+  info.pCode = program.spirv.data();
   check(vkCreateShaderModule(program.core->device, &info, nullptr, program.module.out()),
         "vkCreateShaderModule");
 }
@@ -56,22 +56,40 @@ void require(std::size_t asked, std::size_t allowed, const char* what) {
                                 "; the device allows " + std::to_string(allowed));
 }
 
+std::shared_ptr<Kernel::Program> program_of(const std::shared_ptr<Device::Core>& core,
+                                            std::span<const std::uint32_t> spirv,
+                                            std::uint32_t bindings, std::size_t push_bytes) {
+  for (Kernel::Program* known : core->programs) {
+    if (known->bindings == bindings && known->push_bytes == push_bytes &&
+        std::ranges::equal(known->spirv, spirv))
+      return known->shared_from_this();
+  }
+  auto made = std::make_shared<Kernel::Program>(core, spirv, bindings, push_bytes);
+  make_module(*made);
+  make_set_layout(*made);
+  make_layout(*made);
+  return made;
+}
+
 }  // namespace
 
 Kernel::Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32_t bindings,
-               std::size_t push_bytes)
-    : program_(std::make_shared<Program>(device.core())) {
+               std::size_t push_bytes) {
   require(bindings, device.limits().max_bindings, "storage buffers");
   require(push_bytes, device.limits().max_push_bytes, "bytes of push constants");
-  program_->bindings = bindings;
-  program_->push_bytes = push_bytes;
-  make_module(*program_, spirv);
-  make_set_layout(*program_);
-  make_layout(*program_);
+  program_ = program_of(device.core(), spirv, bindings, push_bytes);
 }
 
-Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_)
-    : core(core_), module(core_), set_layout(core_), layout(core_) {
+Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_,
+                         std::span<const std::uint32_t> spirv_, std::uint32_t bindings_,
+                         std::size_t push_bytes_)
+    : core(core_),
+      spirv(spirv_.begin(), spirv_.end()),
+      bindings(bindings_),
+      push_bytes(push_bytes_),
+      module(core_),
+      set_layout(core_),
+      layout(core_) {
   core->programs.push_back(this);
 }
 
@@ -80,18 +98,23 @@ Kernel::Program::~Program() {
   core->pipelines_kept -= pipelines_.size();
 }
 
-std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::pipeline(
-    const Specialization& specialization) {
+Kernel::Program::PipelineToBe Kernel::Program::pipeline(const Specialization& specialization) {
   auto found = pipelines_.find(specialization);
   if (found == pipelines_.end()) {
-    auto made = make(specialization);
     if (core->pipelines_kept >= core->most_pipelines) forget_least_used_pipeline(*core);
+    // Deferred where there can be no other thread.
+    PipelineToBe made = std::async(std::launch::async | std::launch::deferred,
+                                   [this, specialization] { return make(specialization); });
     found = pipelines_.emplace(specialization, Kept{std::move(made)}).first;
     ++core->pipelines_kept;
     ++core->pipelines_made;
   }
   found->second.last_use = ++core->pipeline_uses;
   return found->second.pipeline;
+}
+
+void Kernel::Program::forget(const Specialization& specialization) {
+  core->pipelines_kept -= pipelines_.erase(specialization);
 }
 
 void forget_least_used_pipeline(Device::Core& core) {
@@ -109,7 +132,7 @@ void forget_least_used_pipeline(Device::Core& core) {
 }
 
 std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::make(
-    const Specialization& specialization) {
+    const Specialization& specialization) const {
   std::vector<VkSpecializationMapEntry> entries;
   for (std::uint32_t id = 0; id < specialization.size(); ++id)
     entries.push_back({id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});

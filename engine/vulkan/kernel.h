@@ -17,7 +17,7 @@ using Specialization = std::vector<std::uint32_t>;
 
 /// SPIR-V with entry point `main` that uses the storage buffers 0 to bindings - 1 of set 0. Its
 /// pipelines are made at first use, one a specialization; of all kernels' the device keeps
-/// those used last (Device::keep_pipelines).
+/// those used last (Device::keep_pipelines). Kernels of the same code share theirs.
 class Kernel {
  public:
   /// @throws std::invalid_argument where the device has fewer bindings or push constants

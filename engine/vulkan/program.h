@@ -1,6 +1,7 @@
 // A kernel's inner part: what the commands that dispatch it keep alive.
 #pragma once
 
+#include <future>
 #include <map>
 
 #include "engine/vulkan/core.h"
@@ -8,32 +9,39 @@
 
 namespace cyanometer::vulkan {
 
-struct Kernel::Program {
+struct Kernel::Program : std::enable_shared_from_this<Kernel::Program> {
   using Pipeline = Owned<VkPipeline, &vkDestroyPipeline>;
+  /// Drivers work on one for some tenths of a second: on a thread of its own, so that those
+  /// that are dispatched together are made side by side.
+  using PipelineToBe = std::shared_future<std::shared_ptr<Pipeline>>;
 
-  explicit Program(const std::shared_ptr<Device::Core>& core_);
+  Program(const std::shared_ptr<Device::Core>& core_, std::span<const std::uint32_t> spirv_,
+          std::uint32_t bindings_, std::size_t push_bytes_);
   ~Program();
   Program(const Program&) = delete;
 
-  /// The pipeline of a specialization, made where there is none yet.
-  std::shared_ptr<Pipeline> pipeline(const Specialization& specialization);
+  /// That of a specialization, which is begun where there is none yet.
+  PipelineToBe pipeline(const Specialization& specialization);
+  /// Where it could not be made: the next that asks tries again.
+  void forget(const Specialization& specialization);
 
-  std::shared_ptr<Device::Core> core;
-  std::uint32_t bindings = 0;
-  std::size_t push_bytes = 0;
+  const std::shared_ptr<Device::Core> core;
+  const std::vector<std::uint32_t> spirv;
+  const std::uint32_t bindings;
+  const std::size_t push_bytes;
   Owned<VkShaderModule, &vkDestroyShaderModule> module;
   Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> set_layout;
   Owned<VkPipelineLayout, &vkDestroyPipelineLayout> layout;
 
  private:
   struct Kept {
-    std::shared_ptr<Pipeline> pipeline;
+    PipelineToBe pipeline;
     std::uint64_t last_use = 0;
   };
-  std::shared_ptr<Pipeline> make(const Specialization& specialization);
+  std::shared_ptr<Pipeline> make(const Specialization& specialization) const;
   friend void forget_least_used_pipeline(Device::Core& core);
 
-  std::map<Specialization, Kept> pipelines_;
+  std::map<Specialization, Kept> pipelines_;  ///< last: ends before what its threads use
 };
 
 /// Of all kernels'. @pre one is kept

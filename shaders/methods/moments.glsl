@@ -20,29 +20,46 @@ int moment_index(int l, int m) { return l * (l + 1) / 2 + m; }
 
 // The m-th derivatives of the Legendre polynomials over that of P_m, P_l^(m)(mu) / (2 m - 1)!!: associated
 // Legendre functions without their sin^m, and of a size that halves hold [Abramowitz and Stegun 1964, eqs. 8.5.3 and
-// 8.6.6].
+// 8.6.6]. This is that of the degree l + 1 after those of l and l - 1; that of m is 1, and below it they are 0.
+Real next_zenith_polynomial(Real mu, int l, int m, Real p, Real before) {
+  return (Real(2 * l + 1) / Real(l + 1 - m)) * mu * p - (Real(l + m) / Real(l + 1 - m)) * before;
+}
+
 void zenith_polynomials(Real mu, int degree, OUT_ARRAY(Real, p, MOST_MOMENTS)) {
   UNROLL for (int m = 0; m <= degree; ++m) {
     UNROLL for (int l = 0; l <= degree; ++l) {
       if (l == m) p[moment_index(l, m)] = 1.0;
       if (l > m) {
         Real before = l > m + 1 ? p[moment_index(l - 2, m)] : 0.0;
-        p[moment_index(l, m)] = (Real(2 * l - 1) / Real(l - m)) * mu * p[moment_index(l - 1, m)] -
-                                (Real(l + m - 1) / Real(l - m)) * before;
+        p[moment_index(l, m)] = next_zenith_polynomial(mu, l - 1, m, p[moment_index(l - 1, m)], before);
       }
     }
   }
 }
 
 // c_m = (sin of the direction's times sin of the axis' zenith angle)^m cos(m azimuth), without
-// trigonometry: Chebyshev's recurrence.
+// trigonometry: Chebyshev's recurrence from c_0 = 1.
+struct AzimuthRecurrence {
+  Real first;
+  Real square;
+};
+
+AzimuthRecurrence azimuth_recurrence(Real mu, Real mu_s, Real nu) {
+  AzimuthRecurrence recurrence;
+  recurrence.first = nu - mu * mu_s;
+  recurrence.square = (1.0 - mu * mu) * (1.0 - mu_s * mu_s);
+  return recurrence;
+}
+
+// c_(m + 1) after c_m and the one before.
+Real next_azimuth_term(AzimuthRecurrence by, int m, Real c, Real before) {
+  return m == 0 ? by.first : 2.0 * by.first * c - by.square * before;
+}
+
 void azimuth_terms(Real mu, Real mu_s, Real nu, int degree, OUT_ARRAY(Real, c, MOST_DEGREE + 1)) {
-  Real first = nu - mu * mu_s;
-  Real square = (1.0 - mu * mu) * (1.0 - mu_s * mu_s);
+  AzimuthRecurrence by = azimuth_recurrence(mu, mu_s, nu);
   c[0] = 1.0;
-  UNROLL for (int m = 1; m <= degree; ++m) {
-    c[m] = m == 1 ? first : 2.0 * first * c[m - 1] - square * c[max(m - 2, 0)];
-  }
+  UNROLL for (int m = 1; m <= degree; ++m) c[m] = next_azimuth_term(by, m - 1, c[m - 1], c[max(m - 2, 0)]);
 }
 
 // What makes the addition theorem P_l(cos of an angle) = 4 pi / (2 l + 1) sum over m of

@@ -19,7 +19,7 @@ void series_towards(ScatteringAngle angle, OUT_ARRAY(Vec4, scattering_phase, MED
       if (kind > PHASE_RAYLEIGH) {
         Real before = 0.0;
         Real p = 1.0;
-        UNROLL for (int l = 0; l < TERMS; ++l) {
+        ROLLED for (int l = 0; l < TERMS; ++l) {
           phase = phase + series(c, l, g) * p;
           Real next = (Real(2 * l + 1) * angle.cosine * p - Real(l) * before) / Real(l + 1);
           before = p;
@@ -89,9 +89,8 @@ void add_sunlit_ground(int i, int j, Path path, INOUT_ARRAY(Vec4, parts, PARTS))
   }
 }
 
-// What the whole ray sends to its start.
-void trace_first(int i, int j, TableRay ray, Path path, OUT_ARRAY(Vec4, parts, PARTS)) {
-  UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = Vec4(0.0);
+// What the whole ray sends to its start. @pre parts are 0
+void trace_first(int i, int j, TableRay ray, Path path, INOUT_ARRAY(Vec4, parts, PARTS)) {
   Shadow shadow = shadow_on(path, light_of_sun(0), 0.0);
   Real column[MEDIA_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
@@ -151,35 +150,57 @@ void add_azimuth(Vec3 axis, Path path, ARRAY(Vec4, parts, PARTS), INOUT_ARRAY(Ve
   }
 }
 
-// Traces one to three azimuths, and has the light of all of them: but for the phase functions it changes
-// little. Adds that times a share.
-void add_from_few(int i, int j, TableRay ray, Vec3 axis, AzimuthRule rule, Real share,
-                  INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
-  Vec4 mean[PARTS];
-  Vec4 slope[PARTS];
-  Vec4 bend[PARTS];
+// A series over the cosine of the azimuth, from one to three azimuths: but for the phase functions light
+// changes little between them.
+Vec4 mean[PARTS];
+Vec4 slope[PARTS];
+Vec4 bend[PARTS];
+
+void clear_series() {
   UNROLL for (int n = 0; n < PARTS; ++n) {
     mean[n] = Vec4(0.0);
     slope[n] = Vec4(0.0);
     bend[n] = Vec4(0.0);
   }
-  for (int p = 0; p < rule.points + rule.more; ++p) {
-    AzimuthSample point = azimuth_sample(rule, p);
-    Vec4 parts[PARTS];
-    trace_first(i, j, ray, path_towards(ray, point.x), parts);
-    UNROLL for (int n = 0; n < PARTS; ++n) {
-      mean[n] = mean[n] + parts[n] * point.shares.x;
-      slope[n] = slope[n] + parts[n] * point.shares.y;
-      bend[n] = bend[n] + parts[n] * point.shares.z;
-    }
+}
+
+void add_to_series(ARRAY(Vec4, parts, PARTS), Vec3 shares) {
+  UNROLL for (int n = 0; n < PARTS; ++n) {
+    mean[n] = mean[n] + parts[n] * shares.x;
+    slope[n] = slope[n] + parts[n] * shares.y;
+    bend[n] = bend[n] + parts[n] * shares.z;
   }
-  for (int a = 0; a < AZIMUTHS; ++a) {
-    Real x = cos(table_azimuth(a));
+}
+
+void mix_with_series(Real x, Real share, INOUT_ARRAY(Vec4, parts, PARTS)) {
+  UNROLL for (int n = 0; n < PARTS; ++n) {
+    Vec4 of_few = max(chebyshev_sum(mean[n], slope[n], bend[n], x), Vec4(0.0));
+    parts[n] = parts[n] * (1.0 - share) + of_few * share;
+  }
+}
+
+// Adds the azimuths of this dispatch: what their own rays see, what the series of a few has, or a share of
+// either. In one loop, for the code that traces a ray is long, and drivers copy it to each place that calls it;
+// loops of one round are passed over where their condition does not hold, which both sides of an if are not.
+void add_azimuths(int i, int j, TableRay ray, Vec3 axis, INOUT_ARRAY(Vec4, terms, LIGHT_SIZE)) {
+  Real spacings = spacings_of(ray, axis.z);
+  AzimuthRule rule = azimuth_rule(spacings);
+  Real each = push.each_azimuth != 0 ? 1.0 : share_of_each_azimuth(spacings);
+  int few = each < 1.0 ? rule.points + rule.more : 0;
+  clear_series();
+  for (int n = 0; n < few + push.end_azimuth - push.first_azimuth; ++n) {
+    bool of_few = n < few;
+    AzimuthSample point = azimuth_sample(rule, of_few ? n : 0);
+    Real x = of_few ? point.x : cos(table_azimuth(push.first_azimuth + n - few));
+    Path path = path_towards(ray, x);
     Vec4 parts[PARTS];
-    UNROLL for (int n = 0; n < PARTS; ++n) {
-      parts[n] = max(chebyshev_sum(mean[n], slope[n], bend[n], x), Vec4(0.0)) * share;
+    UNROLL for (int k = 0; k < PARTS; ++k) parts[k] = Vec4(0.0);
+    for (int once = 0; once < (of_few || each > 0.0 ? 1 : 0); ++once) trace_first(i, j, ray, path, parts);
+    add_to_series(parts, of_few ? point.shares : Vec3(0.0));
+    for (int once = 0; once < (of_few ? 0 : 1); ++once) {
+      mix_with_series(x, 1.0 - each, parts);
+      add_azimuth(axis, path, parts, terms);
     }
-    add_azimuth(axis, path_towards(ray, x), parts, terms);
   }
 }
 
@@ -204,17 +225,6 @@ void main() {
   UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) {
     terms[n] = push.first_azimuth > 0 ? light[at + n] : Vec4(0.0);
   }
-  Real spacings = spacings_of(ray, axis.z);
-  Real each = push.each_azimuth != 0 ? 1.0 : share_of_each_azimuth(spacings);
-  for (int a = push.first_azimuth; a < (each > 0.0 ? push.end_azimuth : 0); ++a) {
-    Path path = path_towards(ray, cos(table_azimuth(a)));
-    Vec4 parts[PARTS];
-    trace_first(i, j, ray, path, parts);
-    UNROLL for (int n = 0; n < PARTS; ++n) parts[n] = parts[n] * each;
-    add_azimuth(axis, path, parts, terms);
-  }
-  for (int few = 0; few < (each < 1.0 ? 1 : 0); ++few) {
-    add_from_few(i, j, ray, axis, azimuth_rule(spacings), 1.0 - each, terms);
-  }
+  add_azimuths(i, j, ray, axis, terms);
   UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) light[at + n] = terms[n];
 }

@@ -126,11 +126,10 @@ void main() {
   Vec4 reflected = ray_data[ground_at(i, j) + g];
   Vec4 terms[LIGHT_SLOTS];
   UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) terms[n] = Vec4(0.0);
-  UNROLL for (int a = 0; a < AZIMUTHS; ++a) {
+  UNROLL for (int a = 0; a < AZIMUTHS; ++a) add_azimuth(beam, cos(table_azimuth(a)), radiance[a], terms);
+  ROLLED for (int a = 0; a < (beam.ray.down ? AZIMUTHS : 0); ++a) {
     Real x = cos(table_azimuth(a));
-    Vec4 light = radiance[a];
-    if (beam.ray.down) light = light + reflected * irradiance_of(beam, x, g);
-    add_azimuth(beam, x, light, terms);
+    add_azimuth(beam, x, reflected * irradiance_of(beam, x, g), terms);
   }
   int at = light_at(i, j, s) + g;
   UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) light[at + n * GROUPS] = terms[n];

@@ -18,24 +18,20 @@ void main() {
   int e = index / GROUPS / push.azimuths;
   SkyRay ray = sky_ray(e);
   Real x = cos(PI * Real(a) / Real(push.azimuths - 1));
-  Real nu = nu_at(ray, x);
   Stops stops = stops_of(ray.altitude_km, ray.mu, ray.length_km);
   Real from_km = push.stop > 0 ? stop_km(stops, push.stop - 1, PART_STOPS) : 0.0;
   Real to_km = stop_km(stops, push.stop, PART_STOPS);
   Vec4 smooth_light = push.stop > 0 ? light[2 * index] : Vec4(0.0);
   Vec4 aureole_light = push.stop > 0 ? light[2 * index + 1] : Vec4(0.0);
-  UNROLL for (int k = 0; k < 3; ++k) {
+  ROLLED for (int k = 0; k < 3; ++k) {
     SkyNode node;
     node.t_km = from_km + (to_km - from_km) * gauss3_node(k);
     node.width_km = (to_km - from_km) * gauss3_weight(k);
     node.altitude_km = altitude_after(ray.altitude_km, ray.mu, node.t_km);
     node.mu = mu_after(ray.altitude_km, ray.mu, node.t_km, node.altitude_km);
-    Vec4 term[SENT];
-    sent_by(ray, node, x, g, term);
-    Real c[MOST_DEGREE + 1];
-    azimuth_terms(node.mu, axis_at(ray, x, node.t_km, node.altitude_km), nu, DEGREE, c);
-    UNROLL for (int m = 0; m <= DEGREE; ++m) smooth_light = smooth_light + term[m] * c[m];
-    aureole_light = aureole_light + term[SERIES];
+    Sender sender = sender_at(ray, node, x, g);
+    smooth_light = smooth_light + smooth_light_of(sender, azimuth_at(ray, node, x));
+    aureole_light = aureole_light + aureole_of(sender);
   }
   light[2 * index] = smooth_light;
   light[2 * index + 1] = aureole_light;

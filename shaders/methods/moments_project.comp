@@ -2,13 +2,18 @@
 #extension GL_GOOGLE_include_directive : require
 #include "methods/moments_device.glsl"
 
-// Adds an order to the sum and leaves it as the next one reads it.
+// Adds an order to the sum and leaves it as the next one reads it. They are written down first, for what is
+// done with each is long when unrolled.
 void keep(int i, int s, int g, Vec4 moment[SLOTS]) {
   int at = moment_at(i, s, 0) + g;
-  UNROLL for (int n = 0; n < SLOTS; ++n) {
-    int sum = sum_table() + at + n * GROUPS;
-    moments[sum] = moments[sum] + moment[n];
-    moments[at + n * GROUPS] = n == 0 ? moment_logarithm(moment[0]) : moment_ratio(moment[n], moment[0]);
+  UNROLL for (int n = 0; n < SLOTS; ++n) moments[at + n * GROUPS] = moment[n];
+  Vec4 lowest = moment[0];
+  ROLLED for (int n = 0; n < SLOTS; ++n) {
+    int own = at + n * GROUPS;
+    int sum = sum_table() + own;
+    Vec4 value = moments[own];
+    moments[sum] = moments[sum] + value;
+    moments[own] = n == 0 ? moment_logarithm(lowest) : moment_ratio(value, lowest);
   }
 }
 

@@ -26,7 +26,7 @@ void write_node(int i, int j, int k, TableRay ray, Cuts cuts) {
     UNROLL for (int c = 0; c < MEDIA; ++c) {
       balance[g] = balance[g] + extinction(c, g) * (density[c] * share_of_extinction(c)) * seen;
     }
-    UNROLL for (int l = 0; l <= DEGREE; ++l) {
+    ROLLED for (int l = 0; l <= DEGREE; ++l) {
       Vec4 scattered = Vec4(0.0);
       UNROLL for (int c = 0; c < MEDIA; ++c) {
         scattered = scattered + scattering(c, g) * density[c] * scattered_share(c, l, g);
@@ -57,7 +57,7 @@ void main() {
   }
   for (int k = 0; k < push.steps; ++k) {
     int at = node_at(i, j, k) + 2;
-    UNROLL for (int l = 0; l <= DEGREE; ++l) {
+    ROLLED for (int l = 0; l <= DEGREE; ++l) {
       UNROLL for (int g = 0; g < GROUPS; ++g) {
         ray_data[at + l * GROUPS + g] = ray_data[at + l * GROUPS + g] * balance[g];
       }

@@ -25,26 +25,27 @@ void main() {
   int e = index / GROUPS / push.azimuths;
   SkyRay ray = sky_ray(e);
   Real x = cos(PI * Real(a) / Real(push.azimuths - 1));
-  Real nu = nu_at(ray, x);
   Vec4 smooth_light = Vec4(0.0);
   Vec4 aureole_light = Vec4(0.0);
   for (int k = 0; k < push.steps; ++k) {
-    SkyNode node;
-    Vec4 term[SENT];
     if (EACH_AZIMUTH) {
-      node = sky_node(ray, k);
-      sent_by(ray, node, x, g, term);
+      SkyNode node = sky_node(ray, k);
+      Sender sender = sender_at(ray, node, x, g);
+      smooth_light = smooth_light + smooth_light_of(sender, azimuth_at(ray, node, x));
+      aureole_light = aureole_light + aureole_of(sender);
     } else {
       Vec4 place = ray_data[place_at(e, k)];
+      SkyNode node;
       node.altitude_km = place.x;
       node.mu = place.y;
       node.t_km = place.z;
+      Vec4 term[SENT];
       gather(sent_at(e, k, 0) + g, int(place.w), x, term);
+      Real c[MOST_DEGREE + 1];
+      azimuth_terms(node.mu, axis_at(ray, x, node.t_km, node.altitude_km), nu_at(ray, x), DEGREE, c);
+      UNROLL for (int m = 0; m <= DEGREE; ++m) smooth_light = smooth_light + term[m] * c[m];
+      aureole_light = aureole_light + term[SERIES];
     }
-    Real c[MOST_DEGREE + 1];
-    azimuth_terms(node.mu, axis_at(ray, x, node.t_km, node.altitude_km), nu, DEGREE, c);
-    UNROLL for (int m = 0; m <= DEGREE; ++m) smooth_light = smooth_light + term[m] * c[m];
-    aureole_light = aureole_light + term[SERIES];
   }
   int at = (e * push.azimuths + a) * 2 * GROUPS + g;
   sky[at] = moment_logarithm(smooth_light);

@@ -81,6 +81,10 @@ SkyNode sky_node(SkyRay ray, int k) {
   return place;
 }
 
+AzimuthRecurrence azimuth_at(SkyRay ray, SkyNode node, Real x) {
+  return azimuth_recurrence(node.mu, axis_at(ray, x, node.t_km, node.altitude_km), nu_at(ray, x));
+}
+
 Vec4 dimmed(ARRAY(Real, column, MEDIA_SIZE), int g) {
   Vec4 depth = Vec4(0.0);
   UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + spectra[(2 + 3 * c) * GROUPS + g] * column[c];
@@ -93,9 +97,22 @@ Vec4 between(int at, int to_sun, int to_altitude, Vec2 x) {
              mix(moments[at + to_altitude], moments[at + to_altitude + to_sun], x.x), x.y);
 }
 
-// What a node sends at the azimuth whose cosine is x: the terms of its series in azimuth, and what the
-// aureole's function multiplies.
-void sent_by(SkyRay ray, SkyNode node, Real x, int g, OUT_ARRAY(Vec4, term, SENT)) {
+// What a node scatters of moments by their degree.
+Vec4 scattered[SERIES];
+
+// A node at the azimuth whose cosine is x.
+struct Sender {
+  int at;        // of the moments' table, at the next lower altitude and sun
+  Vec2 share;    // of the next higher sun and altitude
+  Real mu;
+  Vec4 lowest;   // moment, as much of it as the ray's start sees
+  Vec4 peaked;   // what it scatters into the aureole
+};
+
+int to_sun() { return SLOTS * GROUPS; }
+int to_altitude() { return push.fine_suns * to_sun(); }
+
+Sender sender_at(SkyRay ray, SkyNode node, Real x, int g) {
   Real h = node.altitude_km;
   Real column[MEDIA_SIZE];
   Real density[MEDIA_SIZE];
@@ -110,34 +127,61 @@ void sent_by(SkyRay ray, SkyNode node, Real x, int g, OUT_ARRAY(Vec4, term, SENT
                   Real(push.grid.suns - 1) * Real(push.fine_suns - 1);
   int i = min(int(altitude_node), push.fine_altitudes - 2);
   int s = min(int(sun_node), push.fine_suns - 2);
-  Vec2 share = Vec2(sun_node - Real(s), altitude_node - Real(i));
-  int at = (i * push.fine_suns + s) * SLOTS * GROUPS + g;
-  int to_sun = SLOTS * GROUPS;
-  int to_altitude = push.fine_suns * to_sun;
-  Vec4 lowest = exp(between(at, to_sun, to_altitude, share)) * seen;
+  Sender sender;
+  sender.at = (i * push.fine_suns + s) * SLOTS * GROUPS + g;
+  sender.share = Vec2(sun_node - Real(s), altitude_node - Real(i));
+  sender.mu = node.mu;
+  sender.lowest = exp(between(sender.at, to_sun(), to_altitude(), sender.share)) * seen;
 
-  Real p[MOST_MOMENTS];
-  zenith_polynomials(node.mu, DEGREE, p);
-  UNROLL for (int m = 0; m < SENT; ++m) term[m] = Vec4(0.0);
-  Vec4 peaked = Vec4(0.0);
-  UNROLL for (int l = 0; l <= DEGREE; ++l) {
-    if (!PARTICLES && l % 2 == 1) continue;
-    Vec4 scattered = Vec4(0.0);
-    UNROLL for (int c = 0; c < MEDIA; ++c) {
-      Vec4 coefficient = spectra[(3 + 3 * c) * GROUPS + g] * density[c];
-      scattered = scattered + coefficient * scattered_share(c, l, g);
-      if (l == 0 && medium(c).phase > PHASE_RAYLEIGH) peaked = peaked + coefficient;
-    }
-    UNROLL for (int m = 0; m <= DEGREE; ++m) {
-      if (m > l) continue;
-      int n = moment_index(l, m);
-      Vec4 ratio = Vec4(1.0);
-      if (n > 0) ratio = between(at + n * GROUPS, to_sun, to_altitude, share);
-      term[m] = term[m] + scattered * ratio * p[n];
-    }
+  Vec4 coefficient[MEDIA_SIZE];
+  sender.peaked = Vec4(0.0);
+  UNROLL for (int c = 0; c < MEDIA; ++c) {
+    coefficient[c] = spectra[(3 + 3 * c) * GROUPS + g] * density[c];
+    if (medium(c).phase > PHASE_RAYLEIGH) sender.peaked = sender.peaked + coefficient[c];
   }
-  UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = term[m] * lowest;
-  if (PARTICLES) term[SERIES] = peaked * between(at + AUREOLE * GROUPS, to_sun, to_altitude, share) * lowest;
+  ROLLED for (int l = 0; l <= DEGREE; ++l) {
+    Vec4 of_all = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) of_all = of_all + coefficient[c] * scattered_share(c, l, g);
+    scattered[l] = of_all;
+  }
+  return sender;
+}
+
+// A term of its series in azimuth. Rayleigh's function scatters moments of the degrees 0 and 2.
+Vec4 term_of(Sender sender, int m) {
+  Vec4 term = Vec4(0.0);
+  Real before = 0.0;
+  Real p = 1.0;
+  ROLLED for (int l = m; l <= (PARTICLES ? DEGREE : min(DEGREE, 2)); ++l) {
+    int n = moment_index(l, m);
+    Vec4 ratio = between(sender.at + n * GROUPS, to_sun(), to_altitude(), sender.share);
+    term = term + scattered[l] * (n > 0 ? ratio : Vec4(1.0)) * p;
+    Real next = next_zenith_polynomial(sender.mu, l, m, p, before);
+    before = p;
+    p = next;
+  }
+  return term * sender.lowest;
+}
+
+// What the aureole's function multiplies.
+Vec4 aureole_of(Sender sender) {
+  if (!PARTICLES) return Vec4(0.0);
+  Vec4 ratio = between(sender.at + AUREOLE * GROUPS, to_sun(), to_altitude(), sender.share);
+  return sender.peaked * ratio * sender.lowest;
+}
+
+// What it sends but for that.
+Vec4 smooth_light_of(Sender sender, AzimuthRecurrence azimuth) {
+  Vec4 light = Vec4(0.0);
+  Real before = 0.0;
+  Real c = 1.0;
+  ROLLED for (int m = 0; m <= DEGREE; ++m) {
+    light = light + term_of(sender, m) * c;
+    Real next = next_azimuth_term(azimuth, m, c, before);
+    before = c;
+    c = next;
+  }
+  return light;
 }
 
 // Points where so many spacings of the sun's nodes lie between the azimuths 0 and pi: more than the tables

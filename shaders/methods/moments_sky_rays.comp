@@ -22,8 +22,8 @@ void main() {
   int points = sky_points(abs(last - first));
   if (point == 0 && g == 0) ray_data[place_at(e, k)] = Vec4(node.altitude_km, node.mu, node.t_km, Real(points));
   if (point >= points) return;
-  Vec4 term[SENT];
-  sent_by(ray, node, azimuth_point(point, points), g, term);
+  Sender sender = sender_at(ray, node, azimuth_point(point, points), g);
   int own = sent_at(e, k, point) + g;
-  UNROLL for (int n = 0; n < SENT; ++n) ray_data[own + n * GROUPS] = term[n];
+  ROLLED for (int m = 0; m <= DEGREE; ++m) ray_data[own + m * GROUPS] = term_of(sender, m);
+  ray_data[own + SERIES * GROUPS] = aureole_of(sender);
 }

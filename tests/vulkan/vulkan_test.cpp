@@ -43,6 +43,8 @@ class Combine : public testing::Test {
   Device device;
   Kernel kernel{device, combine_spirv, 3, sizeof(Push)};
   Buffer a = make_buffer(), b = make_buffer(), c = make_buffer();
+  /// With one binding more, for kernels of the same code share their pipelines.
+  Kernel make_other() { return {device, combine_spirv, 4, sizeof(Push)}; }
   Commands commands{device};
 };
 
@@ -104,10 +106,12 @@ TEST_F(Combine, MoreSpecializationsThanAreKeptStillRun) {
 
 TEST_F(Combine, OfAllKernelsPipelinesThoseUsedLastAreKept) {
   device.keep_pipelines(3);
-  const Kernel other(device, combine_spirv, 3, sizeof(Push));
+  const Kernel other = make_other();
   const auto made_by = [&](const Kernel& one, std::uint32_t factor) {
     const auto before = device.pipelines().made;
-    commands.dispatch(one, {factor}, {a, b, c}, bytes_of(Push{}), kGroups);
+    const std::vector<Binding> bindings{a, b, c, c};
+    commands.dispatch(one, {factor}, std::span(bindings).first(&one == &other ? 4 : 3),
+                      bytes_of(Push{}), kGroups);
     commands.submit_and_wait();
     EXPECT_EQ(result(5), 5 + factor * 7);
     EXPECT_LE(device.pipelines().kept, 3u);
@@ -129,8 +133,8 @@ TEST_F(Combine, OfAllKernelsPipelinesThoseUsedLastAreKept) {
 TEST_F(Combine, AKernelThatGoesTakesItsPipelinesAlong) {
   run({1}, {});
   {
-    const Kernel other(device, combine_spirv, 3, sizeof(Push));
-    commands.dispatch(other, {2}, {a, b, c}, bytes_of(Push{}), kGroups);
+    const Kernel other = make_other();
+    commands.dispatch(other, {2}, {a, b, c, c}, bytes_of(Push{}), kGroups);
     commands.submit_and_wait();
     EXPECT_EQ(device.pipelines().kept, 2u);
   }
@@ -138,6 +142,26 @@ TEST_F(Combine, AKernelThatGoesTakesItsPipelinesAlong) {
   device.keep_pipelines(1);
   run({3}, {});
   EXPECT_EQ(result(5), 5 + 3u * 7);
+}
+
+TEST_F(Combine, KernelsOfTheSameCodeShareTheirPipelines) {
+  run({3}, {});
+  const Kernel same(device, std::vector(std::begin(combine_spirv), std::end(combine_spirv)), 3,
+                    sizeof(Push));
+  commands.dispatch(same, {3}, {a, b, c}, bytes_of(Push{kCount, 10}), kGroups);
+  commands.submit_and_wait();
+  EXPECT_EQ(result(0), 10 + 3 * 7u);
+  EXPECT_EQ(device.pipelines().made, 1u);
+}
+
+TEST_F(Combine, WorkThatIsForgottenLeavesItsPipelines) {
+  commands.dispatch(kernel, {4}, {a, b, c}, bytes_of(Push{}), kGroups);
+  commands.begin();
+  commands.submit_and_wait();
+  EXPECT_EQ(result(5), 0u) << "it was not done";
+  run({4}, {});
+  EXPECT_EQ(result(5), 5 + 4 * 7u);
+  EXPECT_EQ(device.pipelines().made, 1u);
 }
 
 TEST_F(Combine, PushConstantsReachTheShader) {

@@ -84,7 +84,7 @@ class Solution {
     // A part of a ray on either side of the shadow, and the series of phase functions.
     int series = (2 * settings_.degree + 3) * scene_.media() *
                  (scene_.problem().sun_distance_km > 0 ? first_steps() : 1);
-    int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree;
+    int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree + 2;
     require_rounds(scene_, rounds);
     Push part = push();
     // Under a near sun the scattering angle changes along a ray.
