@@ -80,6 +80,10 @@ Kernel::Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32
   program_ = program_of(device.core(), spirv, bindings, push_bytes);
 }
 
+void Kernel::prepare(const Specialization& specialization) const {
+  program_->pipeline(specialization);
+}
+
 Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_,
                          std::span<const std::uint32_t> spirv_, std::uint32_t bindings_,
                          std::size_t push_bytes_)

@@ -24,6 +24,9 @@ class Kernel {
   Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32_t bindings,
          std::size_t push_bytes = 0);
 
+  /// Begins the pipeline of a specialization that will be dispatched later, beside others.
+  void prepare(const Specialization& specialization) const;
+
   struct Program;
   const std::shared_ptr<Program>& program() const { return program_; }
 

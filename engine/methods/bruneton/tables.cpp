@@ -422,6 +422,10 @@ void TableMaker::gather(const Work& work, const UploadedRays& rays, const Source
 }
 
 std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
+  for (const vulkan::Kernel* kernel : {&cells_, &first_, &gather_, &redistribute_, &source_,
+                                       &irradiance_, &order_, &refine_}) {
+    kernel->prepare(work.constants);
+  }
   vulkan::Device& device = work.tracer.device;
   const Problem& problem = work.scene.problem();
   int groups = work.scene.groups();

@@ -150,8 +150,10 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
           sizes.multiple_suns, sizes.multiple_altitudes, sizes.directions,
           sizes.multiple_samples, sizes.forward_share, terms(sizes));
   for (double share : sizes.straight_on) air += bytes_of_float(share);
-  tables.air =
-      tracer.tables.get<AirTables>(air, [&] { return make_air(tracer, scene, sizes); });
+  tables.air = tracer.tables.get<AirTables>(air, [&] {
+    prepare(constants(scene, sizes), sizes.several_orders(), with_sky);
+    return make_air(tracer, scene, sizes);
+  });
   std::string altitude = bytes_of_float(start_altitude_km(problem));
   tables.columns = tracer.tables.get<ViewColumns>(
       "view columns " + altitude + scene.air_key(),
@@ -164,6 +166,15 @@ TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const S
   tables.sky = tracer.tables.get<SkyView>(
       sky + " " + air, [&] { return make_sky(tracer, scene, sizes, tables); });
   return tables;
+}
+
+void TableMaker::prepare(const vulkan::Specialization& specialization, bool several_orders,
+                         bool with_sky) const {
+  for (const vulkan::Kernel* kernel : {&multiple_, &irradiance_, &sum_}) {
+    if (several_orders) kernel->prepare(specialization);
+  }
+  columns_.prepare(specialization);
+  if (with_sky) sky_.prepare(specialization);
 }
 
 std::shared_ptr<const AirTables> TableMaker::make_air(Tracer& tracer,

@@ -73,6 +73,9 @@ class TableMaker {
                    bool with_sky);
 
  private:
+  /// The kernels of all tables.
+  void prepare(const vulkan::Specialization& specialization, bool several_orders,
+               bool with_sky) const;
   std::shared_ptr<const AirTables> make_air(Tracer& tracer, const UploadedScene& scene,
                                             const Sizes& sizes);
   std::shared_ptr<const ViewColumns> make_columns(Tracer& tracer, const UploadedScene& scene,

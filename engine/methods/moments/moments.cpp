@@ -280,6 +280,8 @@ class Moments final : public Method {
         moment_constants(scene, settings.degree, tables.particles);
     bool each_azimuth = scene.problem().camera.altitude_km > scene.problem().thickness_km;
     constants.push_back(each_azimuth);
+    if (!each_azimuth) sky_rays_.prepare(constants);
+    sky_.prepare(constants);
     PacedWork work(tracer);
     auto run = [&](const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each) {
       std::vector<vulkan::Binding> bindings =

@@ -53,14 +53,14 @@ vulkan::Specialization solution_constants(const UploadedScene& scene,
 class Solution {
  public:
   Solution(Tracer& tracer, const UploadedScene& scene, const MomentSettings& settings,
-           const PhaseSeries& series, MomentTables& tables)
+           vulkan::Specialization constants, MomentTables& tables)
       : tracer_(tracer),
         scene_(scene),
         settings_(settings),
         later_(settings.tail ? LaterOrders::after(settings.orders) : LaterOrders{}),
         grid_(tables.grid),
         tables_(tables),
-        constants_(solution_constants(scene, settings, series.particles)),
+        constants_(std::move(constants)),
         groups_(scene.groups()),
         up_(settings.directions),
         down_(std::max(settings.directions / 2, 3)),
@@ -277,7 +277,12 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   Grid grid = moment_grid<float>(scene.problem(), settings.altitudes, settings.suns);
   auto tables = std::make_shared<MomentTables>(tracer.device, grid, series, settings.degree,
                                                scene.groups());
-  Solution solution(tracer, scene, settings, series, *tables);
+  const vulkan::Specialization constants = solution_constants(scene, settings, series.particles);
+  for (const vulkan::Kernel* kernel :
+       {&rays_, &first_, &project_, &order_, &rows_, &next_, &close_}) {
+    kernel->prepare(constants);
+  }
+  Solution solution(tracer, scene, settings, constants, *tables);
   solution.trace_rays(rays_);
   solution.trace_first_order(first_);
   solution.project(project_);
