@@ -343,9 +343,8 @@ void Commands::fill(const Binding& to, std::uint32_t value, Order order) {
           text_of(to) + ": a fill takes multiples of 4");
   state_->keep(to.buffer.allocation());
   state_->add(order, [state = state_.get(), to = *to.buffer.allocation()->buffer,
-                      offset = to.offset, size = size_of(to), value] {
-    vkCmdFillBuffer(state->commands, to, offset, size, value);
-  });
+                      offset = to.offset, size = size_of(to),
+                      value] { vkCmdFillBuffer(state->commands, to, offset, size, value); });
 }
 
 std::chrono::nanoseconds Commands::usual_patience() const {

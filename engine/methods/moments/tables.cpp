@@ -84,7 +84,8 @@ class Solution {
     // A part of a ray on either side of the shadow, and the series of phase functions.
     int series = (2 * settings_.degree + 3) * scene_.media() *
                  (scene_.problem().sun_distance_km > 0 ? first_steps() : 1);
-    int rounds = 2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree + 2;
+    int rounds =
+        2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree + 2;
     require_rounds(scene_, rounds);
     Push part = push();
     // Under a near sun the scattering angle changes along a ray.
@@ -277,7 +278,8 @@ std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,
   Grid grid = moment_grid<float>(scene.problem(), settings.altitudes, settings.suns);
   auto tables = std::make_shared<MomentTables>(tracer.device, grid, series, settings.degree,
                                                scene.groups());
-  const vulkan::Specialization constants = solution_constants(scene, settings, series.particles);
+  const vulkan::Specialization constants =
+      solution_constants(scene, settings, series.particles);
   for (const vulkan::Kernel* kernel :
        {&rays_, &first_, &project_, &order_, &rows_, &next_, &close_}) {
     kernel->prepare(constants);
