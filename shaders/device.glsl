@@ -10,7 +10,9 @@
 #define Vec4 vec4
 #define CONSTANT const
 #define UNROLL [[unroll]]
-// Of loops that are long when unrolled: compiling takes seconds then, more than by their length.
+// For loops that load from buffers and are long when unrolled: software drivers compile code in a time that grows
+// faster than its length (a sum over 66 moments from four nodes each: 12 s unrolled, 0.6 s rolled), and run it no
+// faster. An array that is indexed in such a loop lives in memory, everywhere.
 #define ROLLED [[dont_unroll]]
 #define ARRAY(T, name, n) in T name[n]
 #define OUT_ARRAY(T, name, n) out T name[n]
