@@ -38,7 +38,8 @@ enum class Order {
 };
 
 /// Recording begins by itself, in the constructor's state and after each submission. Buffers
-/// and kernels that were recorded live on until the work is done.
+/// and kernels that were recorded live on until the work is done. Pipelines of kernels that are
+/// recorded are made side by side, and waited for when the work is submitted.
 class Commands {
  public:
   explicit Commands(Device& device);
