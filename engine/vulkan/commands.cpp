@@ -128,6 +128,8 @@ struct Commands::State {
   void bind_pipeline(Kernel::Program& program, const Specialization& specialization,
                      const Kernel::Program::PipelineToBe& made);
   void submit();
+  /// Both; work that could not be started is forgotten, or the next would fail with it.
+  void start();
   /// False where the work has not ended in time.
   bool wait(std::chrono::nanoseconds patience);
   double elapsed_ms() const;
@@ -259,6 +261,16 @@ void Commands::State::submit() {
   check(vkQueueSubmit(core->queue, 1, &info, *fence), "vkQueueSubmit");
 }
 
+void Commands::State::start() {
+  try {
+    record();
+    submit();
+  } catch (...) {
+    begin();
+    throw;
+  }
+}
+
 bool Commands::State::wait(std::chrono::nanoseconds patience) {
   const VkResult result =
       vkWaitForFences(core->device, 1, fence.out(), VK_TRUE,
@@ -355,8 +367,7 @@ double Commands::submit_and_wait(std::optional<std::chrono::nanoseconds> given) 
   const std::chrono::nanoseconds patience = given.value_or(usual_patience());
   const std::shared_ptr<Device::Core> core = state_->core;
   try {
-    state_->record();
-    state_->submit();
+    state_->start();
     if (!state_->wait(patience)) {
       abandon(std::move(state_));
       Device device(core);

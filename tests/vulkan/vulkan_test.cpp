@@ -265,6 +265,22 @@ TEST_F(Combine, BeginForgetsWhatWasNotSubmitted) {
   EXPECT_THAT(c.as<std::uint32_t>(), Each(0u));
 }
 
+TEST_F(Combine, WorkWhosePipelineCannotBeMadeFailsAloneAndIsForgotten) {
+  if (std::getenv("CYANOMETER_VALIDATION")) GTEST_SKIP() << "the layer objects to such code";
+  if (device.info().type != "cpu") GTEST_SKIP() << "drivers may do anything with such code";
+  std::vector<std::uint32_t> code(std::begin(combine_spirv), std::end(combine_spirv));
+  constexpr std::uint32_t main_in_ascii = 0x6e69616d;
+  std::ranges::replace(code, main_in_ascii, main_in_ascii + 1);
+  const Kernel without_entry(device, code, 3, sizeof(Push));
+  for (int i = 0; i < 2; ++i) {
+    commands.dispatch(without_entry, {1}, {a, b, c}, bytes_of(Push{}), kGroups);
+    EXPECT_THROW(commands.submit_and_wait(), Error);
+    EXPECT_EQ(device.pipelines().kept, 0u);
+  }
+  run({4}, {});
+  EXPECT_EQ(result(5), 5 + 4 * 7u);
+}
+
 TEST(Buffers, ReadBackWhatWasWritten) {
   Device device;
   for (const Memory memory : {Memory::host, Memory::device}) {
