@@ -14,8 +14,6 @@ namespace {
 
 using P = Physics<double>;
 
-constexpr double radians = std::numbers::pi / 180;
-
 std::vector<double> evenly(double from, double to, int count) {
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(std::lerp(from, to, i / (count - 1.0)));
@@ -51,7 +49,7 @@ std::vector<std::size_t> phase_indices(const std::vector<double>& wavelengths_nm
 }
 
 P::ScatteringAngle at_angle(double degrees) {
-  const double half = degrees * radians / 2;
+  const double half = glm::radians(degrees) / 2;
   return {std::cos(2 * half), 2 * std::sin(half) * std::sin(half),
           2 * std::cos(half) * std::cos(half)};
 }

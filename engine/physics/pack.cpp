@@ -12,8 +12,6 @@
 namespace cyanometer {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
-
 /// The value of lane `w` of wavelength group after group; `fill` beyond the last wavelength.
 template <class Real>
 void append_groups(std::vector<glm::vec<4, Real>>& out, const std::vector<double>& values,
@@ -185,8 +183,8 @@ template <class Real>
 void set_camera(Physics<Real>& p, const Problem& problem) {
   using Vec4 = typename Physics<Real>::Vec4;
   const Camera& camera = problem.camera;
-  double heading = camera.heading_deg * radians, pitch = camera.pitch_deg * radians,
-         roll = camera.roll_deg * radians;
+  double heading = glm::radians(camera.heading_deg), pitch = glm::radians(camera.pitch_deg),
+         roll = glm::radians(camera.roll_deg);
   glm::dvec3 forward(std::sin(heading) * std::cos(pitch), std::cos(heading) * std::cos(pitch),
                      std::sin(pitch));
   glm::dvec3 right(std::cos(heading), -std::sin(heading), 0);
@@ -196,9 +194,9 @@ void set_camera(Physics<Real>& p, const Problem& problem) {
   p.scene.camera_up = Vec4(up * std::cos(roll) + right * std::sin(roll), 0);
   p.scene.camera_forward = Vec4(forward, 0);
   p.scene.camera_altitude_km = static_cast<Real>(camera.altitude_km);
-  p.scene.half_fov_rad = static_cast<Real>(camera.fov_deg * radians / 2);
+  p.scene.half_fov_rad = static_cast<Real>(glm::radians(camera.fov_deg) / 2);
   if (camera.projection == Projection::perspective) {
-    p.scene.tan_half_fov = static_cast<Real>(std::tan(camera.fov_deg * radians / 2));
+    p.scene.tan_half_fov = static_cast<Real>(std::tan(glm::radians(camera.fov_deg) / 2));
   }
   p.scene.width = problem.width;
   p.scene.height = problem.height;

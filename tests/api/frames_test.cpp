@@ -195,14 +195,17 @@ TEST(Frames, KeptOnesStayWithinTheirMemory) {
 }
 
 TEST(Frames, AShortOneDoesNotWaitForALongOne) {
+  const auto& queue = shared_daemon().service().queue;
   client().Post("/v1/plan", scene_at(33).dump(), "application/json");
   RawClient patient;
   patient.send(request_of(long_scene()));
+  for (int i = 0; i < 3000 && !queue.busy(); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(queue.busy());
   std::this_thread::sleep_for(500ms);
   const auto answer = client().Post("/v1/render", scene_at(33).dump(), "application/json");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 200) << answer->body;
-  EXPECT_GE(shared_daemon().service().queue.counts().gave_way, 1u);
+  EXPECT_GE(queue.counts().gave_way, 1u);
 }
 
 /// Interrupting may not change what is interrupted.

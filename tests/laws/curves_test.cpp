@@ -15,8 +15,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-Scene scene_of(const nlohmann::json& document) { return read_scene(document); }
-
 double trapezoids(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
   for (std::size_t i = 1; i < x.size(); ++i) sum += 0.5 * (x[i] - x[i - 1]) * (y[i] + y[i - 1]);
@@ -32,7 +30,7 @@ const ConstituentCurves& named(const Curves& curves, const std::string& name) {
 
 /// Mie spheres, a tent and both a Henyey-Greenstein and a Rayleigh phase.
 Scene mixed_scene() {
-  return scene_of(
+  return read_scene(
       {{"atmosphere",
         {{"constituents",
           {{"dust",
@@ -99,19 +97,19 @@ TEST(Curves, AreClosedFormsWhereThereAreSome) {
 
 TEST(Curves, AVisibilityComesBack) {
   const Curves curves =
-      constituent_curves(scene_of({{"atmosphere",
-                                    {{"constituents",
-                                      {{"fog",
-                                        {{"type", "particles"},
-                                         {"visibility_km", 7},
-                                         {"profile", {{"type", "uniform"}}}}}}}}}}));
+      constituent_curves(read_scene({{"atmosphere",
+                                      {{"constituents",
+                                        {{"fog",
+                                          {{"type", "particles"},
+                                           {"visibility_km", 7},
+                                           {"profile", {{"type", "uniform"}}}}}}}}}}));
   EXPECT_NEAR(named(curves, "fog").visibility_km.value(), 7, 1e-9);
 }
 
 TEST(Curves, FollowTheScenesOwnWavelengths) {
   const Curves curves =
-      constituent_curves(scene_of({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
-                                   {"planet", {{"ground_albedo", {0.1, 0.2, 0.3}}}}}));
+      constituent_curves(read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                                     {"planet", {{"ground_albedo", {0.1, 0.2, 0.3}}}}}));
   EXPECT_EQ(curves.wavelengths_nm, (std::vector<double>{680, 550, 440}));
   EXPECT_EQ(curves.phase_wavelengths_nm, (std::vector<double>{440, 550, 680}));
   const auto& air = named(curves, "air");

@@ -15,7 +15,6 @@ namespace cyanometer {
 namespace {
 
 using nlohmann::json;
-constexpr double pi = std::numbers::pi;
 
 Scene scene_of(json document) {
   document["method"] = {{"name", "nishita"}, {"view_samples", 24}, {"light_samples", 8}};
@@ -50,7 +49,7 @@ TEST(Frame, WithoutAirIsBlackSkyOverSunlitGround) {
   Radiances found = device().radiance(scene_of(document), {{40, 10}, {-40, 10}}, true);
   for (std::size_t w = 0; w < 3; ++w) {
     EXPECT_EQ(found.radiance[0][w], 0);
-    EXPECT_NEAR(found.radiance[1][w], 0.4 / pi * 0.5, 1e-5);
+    EXPECT_NEAR(found.radiance[1][w], 0.4 * std::numbers::inv_pi * 0.5, 1e-5);
     EXPECT_EQ(found.transmittance[0][w], 1);
     EXPECT_NEAR(found.irradiance->direct[w], 0.5, 1e-6);
     EXPECT_EQ(found.irradiance->diffuse_down[w], 0);
@@ -183,8 +182,9 @@ TEST(Irradiance, OfTheSkyIsTheIntegralOfItsRadiance) {
     Radiances found = device().radiance(scene_of(document), part, first == 0);
     if (first == 0) stated = found.irradiance;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      double e = part[i].elevation_deg * pi / 180;
-      sum += found.radiance[i][1] * std::cos(e) * std::sin(e) * (pi / 180) * (5 * pi / 180);
+      double e = glm::radians(part[i].elevation_deg);
+      sum += found.radiance[i][1] * std::cos(e) * std::sin(e) * glm::radians(1.0) *
+             glm::radians(5.0);
     }
   }
   EXPECT_NEAR(stated->diffuse_down[1], sum, 0.01 * sum);

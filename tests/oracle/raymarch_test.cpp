@@ -29,7 +29,7 @@ std::vector<Direction> views(double altitude_km) {
   return directions;
 }
 
-struct Comparison {
+struct Samples {
   std::vector<double> found, exact;
   double peak() const { return *std::max_element(exact.begin(), exact.end()); }
   /// Relative to |L|, with a floor of a tenth of the frame's peak.
@@ -40,10 +40,10 @@ struct Comparison {
   }
 };
 
-Comparison compare(const Scene& scene, const std::vector<Direction>& directions) {
+Samples sample(const Scene& scene, const std::vector<Direction>& directions) {
   Adaptive integral(pack<double>(make_problem(scene, scene.spectrum.wavelengths_nm)));
   Radiances radiances = device().radiance(scene, directions, false);
-  Comparison result;
+  Samples result;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     Ray ray = integral.trace(towards(directions[i].elevation_deg, directions[i].azimuth_deg));
     for (std::size_t w = 0; w < 3; ++w) {
@@ -66,7 +66,7 @@ TEST(Raymarch, AtItsDefaultIsTheAdaptiveIntegralFromTheGroundToDeepSpaceAndIntoT
   std::vector<double> errors;
   for (double altitude_km : {0.0, 0.002, 0.3, 1.0, 10.0, 50.0, 99.9, 400.0, 36000.0}) {
     for (double sun : {90.0, 60.0, 20.0, 5.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0}) {
-      Comparison frame = compare(raymarched(altitude_km, sun), views(altitude_km));
+      Samples frame = sample(raymarched(altitude_km, sun), views(altitude_km));
       for (std::size_t i = 0; i < frame.exact.size(); ++i) {
         EXPECT_NEAR(frame.found[i], frame.exact[i], 1e-3 * frame.exact[i] + 1e-4 * frame.peak())
             << altitude_km << " km, sun " << sun << " deg, value " << i;
@@ -95,7 +95,7 @@ TEST(Raymarch, ConvergesAlsoInThickHazeAtSunset) {
     std::vector<double> errors;
     for (double altitude_km : {0.0, 2.0, 400.0}) {
       for (double sun : {20.0, 0.0, -4.0}) {
-        compare(hazy(altitude_km, sun, 100, nodes), views(altitude_km)).add_errors(errors);
+        sample(hazy(altitude_km, sun, 100, nodes), views(altitude_km)).add_errors(errors);
       }
     }
     double p99 = percentile(errors, 99);
@@ -146,7 +146,7 @@ TEST(Raymarch, FollowsATabulatedSlabOfDust) {
       TableProfile{{0, 4, 4.2, 5, 5.2}, {0, 0, 1, 1, 0}},
       Particles{ParticleCoefficients{0.2, 0.02}, CornetteShanks{0.6}}};
   std::vector<double> errors;
-  compare(scene, views(0.002)).add_errors(errors);
+  sample(scene, views(0.002)).add_errors(errors);
   EXPECT_LT(percentile(errors, 99), 2e-4);
 }
 

@@ -7,7 +7,7 @@ set -euo pipefail
 options=(-DCMAKE_BUILD_TYPE=Debug -DCYANOMETER_SANITIZE='address,undefined')
 if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 cmake -G Ninja -B build-asan "${options[@]}"
-ninja -C build-asan
+ninja -C build-asan everything
 export ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1:check_initialization_order=1
 export UBSAN_OPTIONS=print_stacktrace=1
 # First that a leak which is there on purpose is found.

@@ -18,7 +18,7 @@ using bruneton::Setup;
 /// Of the density, that reading a table for a ray and a group of wavelengths is worth.
 constexpr int view_evaluations = 20;
 
-struct Push {
+struct ViewPush {
   std::int32_t first_ray, rays_in_tile;
 };
 struct PartsPush {
@@ -31,9 +31,9 @@ class Bruneton final : public Method {
       : first_order_(make_raymarch(device)),
         tables_(device),
         parts_(device, bruneton_parts_spirv, UploadedScene::bindings + 4, sizeof(PartsPush)),
-        view_(device, bruneton_spirv, UploadedScene::bindings + 5, sizeof(Push)),
+        view_(device, bruneton_spirv, UploadedScene::bindings + 5, sizeof(ViewPush)),
         single_view_(device, bruneton_single_view_spirv, UploadedScene::bindings + 5,
-                     sizeof(Push)) {}
+                     sizeof(ViewPush)) {}
 
   const MethodDescription& description() const override { return bruneton_description(); }
 
@@ -101,7 +101,7 @@ class Bruneton final : public Method {
                   const vulkan::Specialization& constants, const vulkan::Kernel& kernel,
                   std::initializer_list<vulkan::Binding> own, std::int64_t evaluations,
                   const Tile& tile) {
-    Push push{tile.first_ray, tile.rays};
+    ViewPush push{tile.first_ray, tile.rays};
     std::vector<vulkan::Binding> bindings = scene.bind(own);
     tracer.commands.dispatch(kernel, constants, bindings, vulkan::bytes_of(push),
                              {vulkan::groups_for(tile.rays, 64)});

@@ -6,14 +6,14 @@
 namespace cyanometer::hillaire {
 namespace {
 
-struct Push {
+struct TracerPush {
   std::int32_t first, end, first_ray, rays_in_tile, all_orders;
 };
 
 }  // namespace
 
 SkyTracer::SkyTracer(vulkan::Device& device)
-    : pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 7, sizeof(Push)),
+    : pixels_(device, hillaire_pixels_spirv, UploadedScene::bindings + 7, sizeof(TracerPush)),
       most_bytes_(device.limits().max_storage_range) {}
 
 bool SkyTracer::serves(const UploadedScene& scene, const Sizes& sizes) const {
@@ -28,7 +28,7 @@ void SkyTracer::trace(Tracer& tracer, const UploadedScene& scene, const Sizes& s
   vulkan::Specialization specialization = constants(scene, sizes);
   auto bindings =
       bind(scene, *tables.air, {tables.columns->values, tables.sky->values, tile.values});
-  Push push{0, 0, tile.first_ray, tile.rays, sizes.several_orders()};
+  TracerPush push{0, 0, tile.first_ray, tile.rays, sizes.several_orders()};
   std::int64_t columns =
       sizes.stops > 1 ? evaluations_per_column(scene.problem()) * scene.media() : 0;
   fill_table(tracer, {pixels_, specialization, bindings}, tile.rays,

@@ -33,7 +33,7 @@ struct ColumnPush {
   std::int32_t first, end, first_medium, end_medium;
   float altitude_km;
 };
-struct SkyPush {
+struct SkyViewPush {
   std::int32_t first, end, samples, all_orders;
   float scale_height_km;
 };
@@ -139,7 +139,7 @@ TableMaker::TableMaker(vulkan::Device& device)
                   sizeof(SpherePush)),
       sum_(device, hillaire_sum_spirv, UploadedScene::bindings + 4, sizeof(SumPush)),
       columns_(device, hillaire_columns_spirv, UploadedScene::bindings + 5, sizeof(ColumnPush)),
-      sky_(device, hillaire_sky_spirv, UploadedScene::bindings + 6, sizeof(SkyPush)) {}
+      sky_(device, hillaire_sky_spirv, UploadedScene::bindings + 6, sizeof(SkyViewPush)) {}
 
 TablesOfView TableMaker::get(Tracer& tracer, const UploadedScene& scene, const Sizes& sizes,
                              bool with_sky) {
@@ -237,8 +237,8 @@ std::shared_ptr<const SkyView> TableMaker::make_sky(Tracer& tracer, const Upload
   auto sky = std::make_shared<SkyView>(tracer.device, SkyView::bytes_of(scene, sizes));
   vulkan::Specialization specialization = constants(scene, sizes);
   auto bindings = bind(scene, *tables.air, {tables.columns->values, sky->values});
-  SkyPush push{0, 0, sizes.view_samples, sizes.several_orders(),
-               scale_height_km(scene.problem())};
+  SkyViewPush push{0, 0, sizes.view_samples, sizes.several_orders(),
+                   scale_height_km(scene.problem())};
   fill_table(tracer, {sky_, specialization, bindings},
              sizes.azimuths * sizes.elevations * sizes.stops,
              2 * most_nodes(sizes.view_samples) * evaluations_per_node(scene), push);

@@ -21,7 +21,7 @@ namespace {
 using Grid = MomentTables::Grid;
 
 /// shaders/methods/moments_device.glsl
-struct Push {
+struct MomentPush {
   Grid grid;
   std::int32_t fine_altitudes, up, down, steps, first_steps, first, end, each_azimuth,
       first_azimuth, end_azimuth, first_altitude, chunks;
@@ -32,11 +32,11 @@ struct RefinePush {
 };
 
 /// Nodes of a finer table that linear interpolation reads as if it were cubic.
-int finer(int nodes, int most) {
+int nodes_of_finer(int nodes, int most) {
   return (nodes - 1) * std::clamp(most / (nodes - 1), 1, 4) + 1;
 }
-int finer_altitudes(int nodes) { return finer(nodes, 64); }
-int finer_suns(int nodes) { return finer(nodes, 128); }
+int finer_altitudes(int nodes) { return nodes_of_finer(nodes, 64); }
+int finer_suns(int nodes) { return nodes_of_finer(nodes, 128); }
 
 int slots_of(int degree) { return (degree + 1) * (degree + 2) / 2 + 1; }
 
@@ -87,7 +87,7 @@ class Solution {
     int rounds =
         2 * (rounds_of_a_piece(scene_, first_steps()) + series) + 4 * settings_.degree + 2;
     require_rounds(scene_, rounds);
-    Push part = push();
+    MomentPush part = push();
     // Under a near sun the scattering angle changes along a ray.
     part.each_azimuth = scene_.problem().sun_distance_km > 0 ||
                         settings_.azimuths * rounds > usual_loop_iterations;
@@ -125,7 +125,7 @@ class Solution {
 
   void trace_next_order(const vulkan::Kernel& rows, const vulkan::Kernel& next) {
     for (int first = 0; first < grid_.altitudes; first += rows_at_once_) {
-      Push part = push();
+      MomentPush part = push();
       part.first_altitude = first;
       int altitudes = std::min(rows_at_once_, grid_.altitudes - first);
       int suns = altitudes * rays() * grid_.suns * groups_;
@@ -192,7 +192,7 @@ class Solution {
            vectors * grid_.suns * groups_;
   }
 
-  Push push() const {
+  MomentPush push() const {
     return {grid_,
             finer_altitudes(grid_.altitudes),
             up_,
@@ -208,7 +208,8 @@ class Solution {
             later_.chunks};
   }
 
-  void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each, Push part) {
+  void run(const vulkan::Kernel& kernel, int count, std::int64_t evaluations_each,
+           MomentPush part) {
     std::vector<vulkan::Binding> bindings =
         scene_.bind({tables_.series, rays_, light_, moments_, rows_, order_});
     work_.run(count, evaluations_each, [&](int first, int end) {
@@ -261,14 +262,14 @@ void PacedWork::submit() {
 }
 
 MomentSolver::MomentSolver(vulkan::Device& device)
-    : rays_(device, moments_rays_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      first_(device, moments_first_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      project_(device, moments_project_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      order_(device, moments_order_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      rows_(device, moments_rows_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      next_(device, moments_next_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      modes_(device, moments_modes_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-      close_(device, moments_close_spirv, UploadedScene::bindings + 6, sizeof(Push)),
+    : rays_(device, moments_rays_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      first_(device, moments_first_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      project_(device, moments_project_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      order_(device, moments_order_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      rows_(device, moments_rows_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      next_(device, moments_next_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      modes_(device, moments_modes_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
+      close_(device, moments_close_spirv, UploadedScene::bindings + 6, sizeof(MomentPush)),
       refine_(device, moments_refine_spirv, UploadedScene::bindings + 2, sizeof(RefinePush)) {}
 
 std::shared_ptr<const MomentTables> MomentSolver::solve(Tracer& tracer,

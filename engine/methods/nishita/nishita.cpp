@@ -10,7 +10,7 @@ namespace {
 struct Range {
   std::int32_t first_view, end_view, first_sun, end_sun, first_light, end_light;
 };
-struct Push {
+struct NishitaPush {
   std::int32_t first_ray, rays_in_tile, view_samples, light_samples;
   Range range;
 };
@@ -65,7 +65,7 @@ std::int64_t most_light_samples(const UploadedScene& scene, const March& march) 
 class Nishita final : public Method {
  public:
   explicit Nishita(vulkan::Device& device)
-      : kernel_(device, nishita_spirv, UploadedScene::bindings + 2, sizeof(Push)) {}
+      : kernel_(device, nishita_spirv, UploadedScene::bindings + 2, sizeof(NishitaPush)) {}
 
   const MethodDescription& description() const override { return nishita_description(); }
 
@@ -94,8 +94,8 @@ class Nishita final : public Method {
         tracer.device, sizeof(float) * 2 * std::max(scene.media(), 1) * tile.rays);
     std::vector<vulkan::Binding> bindings = scene.bind({tile.values, *columns});
     std::int64_t loop_limit = most_light_samples(scene, march);
-    Push push{tile.first_ray, tile.rays, march.view, march.light,
-              March::nothing(march.suns, march.light)};
+    NishitaPush push{tile.first_ray, tile.rays, march.view, march.light,
+                     March::nothing(march.suns, march.light)};
     while (!march.ends_with(push.range)) {
       std::int64_t fit = tracer.pacer.evaluations() / cost(scene, tile.rays);
       push.range = march.after(push.range, std::clamp<std::int64_t>(fit, 1, loop_limit));

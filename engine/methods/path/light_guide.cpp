@@ -18,9 +18,9 @@ using P = Physics<double>;
 /// Of the brightest place's: what is less counts as this.
 constexpr double least_light = 1e-7;
 
-using Sky = std::vector<double>;  ///< irradiance from each cell on a small sphere
+using SkyLight = std::vector<double>;  ///< irradiance from each cell on a small sphere
 
-double total(const Sky& sky) {
+double total(const SkyLight& sky) {
   double sum = 0;
   for (double cell : sky) sum += cell;
   return sum;
@@ -187,7 +187,7 @@ class Lighting {
         weights_.push_back(weight(node, p_.ground_albedo(lane / 4)[lane % 4]));
     }
     light_ = sunlight_;
-    sky_.assign(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
+    sky_.assign(P::SKY_ALTITUDES * P::SKY_SUNS, SkyLight(P::SKY_CELLS, 0.0));
     constexpr int most_orders = 32;
     for (int order = 0; order < most_orders; ++order) {
       look_around();
@@ -198,7 +198,7 @@ class Lighting {
   /// By altitude and sun, what scatters there.
   const std::vector<double>& light() const { return light_; }
   /// By altitude and sun, what arrives there by scattering.
-  const std::vector<Sky>& sky() const { return sky_; }
+  const std::vector<SkyLight>& sky() const { return sky_; }
 
  private:
   double transmittance(const ByMedium& column) const {
@@ -254,7 +254,7 @@ class Lighting {
   std::vector<double> extinction_, scattering_;
   std::vector<double> weights_;  ///< by altitude, elevation and node
   std::vector<double> sunlight_, light_;
-  std::vector<Sky> sky_;
+  std::vector<SkyLight> sky_;
 };
 
 /// Where the estimate knows of no light, walks still look.
@@ -263,11 +263,11 @@ void append_light(std::vector<double>& guide, const std::vector<double>& light) 
   for (double value : light) guide.push_back(std::max(value, least_light * most));
 }
 
-void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
+void append_sky(std::vector<double>& guide, const std::vector<SkyLight>& skies) {
   std::vector<double> light;
-  for (const Sky& sky : skies) light.push_back(total(sky));
+  for (const SkyLight& sky : skies) light.push_back(total(sky));
   append_light(guide, light);
-  for (const Sky& sky : skies) {
+  for (const SkyLight& sky : skies) {
     double sum = 0, all = std::max(total(sky), 1e-300);
     for (double cell : sky) {
       guide.push_back(sum / all);
@@ -281,7 +281,7 @@ void append_sky(std::vector<double>& guide, const std::vector<Sky>& skies) {
 
 void append_light_guide(Physics<double>& physics, const Problem& problem) {
   std::vector<double> light(P::LIGHT_ALTITUDES * P::LIGHT_SUNS, 0.0);
-  std::vector<Sky> sky(P::SKY_ALTITUDES * P::SKY_SUNS, Sky(P::SKY_CELLS, 0.0));
+  std::vector<SkyLight> sky(P::SKY_ALTITUDES * P::SKY_SUNS, SkyLight(P::SKY_CELLS, 0.0));
   const Views views(physics);
   for (int lane : typical_lanes(physics)) {
     Lighting lighting(physics, problem, views, lane);

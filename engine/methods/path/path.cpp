@@ -13,7 +13,7 @@
 namespace cyanometer {
 namespace {
 
-struct Push {
+struct PathPush {
   std::int32_t first_ray, rays_in_tile, slices, walks_of_ray, orders, steps;
   std::uint32_t seed, fresh;
 };
@@ -55,8 +55,8 @@ class PathTracing final : public Method {
  public:
   explicit PathTracing(vulkan::Device& device)
       : first_order_(make_raymarch(device)),
-        walk_(device, path_spirv, UploadedScene::bindings + 6, sizeof(Push)),
-        finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(Push)) {}
+        walk_(device, path_spirv, UploadedScene::bindings + 6, sizeof(PathPush)),
+        finish_(device, path_finish_spirv, UploadedScene::bindings + 3, sizeof(PathPush)) {}
 
   const MethodDescription& description() const override { return path_description(); }
   bool reflects() const override { return true; }
@@ -84,14 +84,14 @@ class PathTracing final : public Method {
              const Tile& tile) override {
     int orders = scene.problem().scattering_orders;
     int walks = orders == 0 || orders == 1 ? 0 : walks_of(options);
-    Push push{.first_ray = tile.first_ray,
-              .rays_in_tile = tile.rays,
-              .slices = std::max(slices_for(walks), 1),
-              .walks_of_ray = walks,
-              .orders = orders,
-              .steps = 0,
-              .seed = static_cast<std::uint32_t>(options.at("seed")),
-              .fresh = 1};
+    PathPush push{.first_ray = tile.first_ray,
+                  .rays_in_tile = tile.rays,
+                  .slices = std::max(slices_for(walks), 1),
+                  .walks_of_ray = walks,
+                  .orders = orders,
+                  .steps = 0,
+                  .seed = static_cast<std::uint32_t>(options.at("seed")),
+                  .fresh = 1};
     Workspace work = workspace(tracer.device, scene, push);
     light_first_order(tracer, scene, tile, *work.coarse);
     if (walks > 0) walk(tracer, scene, push, work);
@@ -105,7 +105,7 @@ class PathTracing final : public Method {
   static int walks_of(const MethodOptions& options) {
     return static_cast<int>(options.at("samples_per_pixel"));
   }
-  static int lanes_of(const Push& push) { return push.rays_in_tile * push.slices; }
+  static int lanes_of(const PathPush& push) { return push.rays_in_tile * push.slices; }
 
   /// Evaluations of densities in one step of a walk: its segments, the columns to the next
   /// vertex and to the sun, phases and random numbers.
@@ -135,7 +135,8 @@ class PathTracing final : public Method {
     Scratch::Loan walks, counts, sums, coarse, unfinished;
   };
 
-  Workspace workspace(vulkan::Device& device, const UploadedScene& scene, const Push& push) {
+  Workspace workspace(vulkan::Device& device, const UploadedScene& scene,
+                      const PathPush& push) {
     std::size_t lanes = lanes_of(push), vec4 = 16, groups = scene.groups();
     return {walks_.take(device, lanes * vec4 * (4 + groups)),
             counts_.take(device, lanes * vec4), sums_.take(device, lanes * vec4 * 4 * groups),
@@ -156,7 +157,7 @@ class PathTracing final : public Method {
     first_order_->trace(tracer, scene, first_order(1), tile);
   }
 
-  void walk(Tracer& tracer, const UploadedScene& scene, Push push, const Workspace& work) {
+  void walk(Tracer& tracer, const UploadedScene& scene, PathPush push, const Workspace& work) {
     bool guided = needs_light_guide(scene.problem());
     std::shared_ptr<const Guide> guide = guide_of(tracer, scene, guided);
     std::vector<vulkan::Binding> bindings =

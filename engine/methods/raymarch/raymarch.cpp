@@ -6,16 +6,16 @@
 namespace cyanometer {
 namespace {
 
-struct Push {
+struct RaymarchPush {
   std::int32_t first_ray, rays_in_tile, view_nodes, sun, pieces, first, last;
 };
 
-constexpr int most_pieces = Physics<float>::MOST_PIECES;
+constexpr int pieces_at_most = Physics<float>::MOST_PIECES;
 
 class Raymarch final : public Method {
  public:
   explicit Raymarch(vulkan::Device& device)
-      : kernel_(device, raymarch_spirv, UploadedScene::bindings + 2, sizeof(Push)) {}
+      : kernel_(device, raymarch_spirv, UploadedScene::bindings + 2, sizeof(RaymarchPush)) {}
 
   const MethodDescription& description() const override { return raymarch_description(); }
 
@@ -40,9 +40,9 @@ class Raymarch final : public Method {
     vulkan::Specialization constants = scene.constants();
     if (has_heights(scene.problem())) constants.push_back(scene.problem().ground->kind);
     for (int sun = 0; sun < scene.disc_points(); ++sun) {
-      for (int done = 0; done < most_pieces; done += pieces) {
-        bool last = sun + 1 == scene.disc_points() && done + pieces >= most_pieces;
-        Push push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
+      for (int done = 0; done < pieces_at_most; done += pieces) {
+        bool last = sun + 1 == scene.disc_points() && done + pieces >= pieces_at_most;
+        RaymarchPush push{tile.first_ray, tile.rays, view_nodes, sun, pieces, done == 0, last};
         tracer.commands.dispatch(kernel_, constants, bindings, vulkan::bytes_of(push),
                                  {vulkan::groups_for(tile.rays, 64)});
         tracer.pacer.took(cost(scene.problem(), options) * tile.rays, tracer.submit());
@@ -87,7 +87,7 @@ int march_pieces_at_once(const UploadedScene& scene, int view_nodes) {
                         std::to_string(scene.profile_nodes()) +
                         " nodes, more than a march of so many view nodes can follow");
   }
-  return std::clamp(usual_loop_iterations / a_piece, 1, most_pieces);
+  return std::clamp(usual_loop_iterations / a_piece, 1, pieces_at_most);
 }
 
 std::int64_t march_evaluations(std::int64_t media, int view_nodes) {

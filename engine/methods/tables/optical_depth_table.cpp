@@ -8,7 +8,7 @@
 namespace cyanometer {
 namespace {
 
-struct Push {
+struct OpticalDepthPush {
   std::int32_t first, end, first_medium, end_medium;
 };
 
@@ -27,7 +27,8 @@ vulkan::Specialization OpticalDepthTable::constants(const UploadedScene& scene,
 }
 
 OpticalDepthTableMaker::OpticalDepthTableMaker(vulkan::Device& device)
-    : kernel_(device, optical_depth_spirv, UploadedScene::bindings + 1, sizeof(Push)) {}
+    : kernel_(device, optical_depth_spirv, UploadedScene::bindings + 1,
+              sizeof(OpticalDepthPush)) {}
 
 std::shared_ptr<const OpticalDepthTable> OpticalDepthTableMaker::get(Tracer& tracer,
                                                                      const UploadedScene& scene,
@@ -45,7 +46,7 @@ std::shared_ptr<const OpticalDepthTable> OpticalDepthTableMaker::make(
   int media = std::max(scene.media(), 1);
   int at_once = std::min(columns_at_once(scene.problem()), media);
   for (int medium = 0; medium < media; medium += at_once) {
-    Push push{0, 0, medium, std::min(media, medium + at_once)};
+    OpticalDepthPush push{0, 0, medium, std::min(media, medium + at_once)};
     fill_table(tracer, {kernel_, constants, bindings}, size.cosines * size.altitudes,
                evaluations_per_column(scene.problem()) * at_once, push);
   }
