@@ -26,7 +26,6 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 // ---- Media
-// --------------------------------------------------------------------------------------
 
 /// One constituent on its way to a medium.
 struct Mixing {
@@ -209,7 +208,6 @@ void check_relief(const Scene& scene, const Ground& ground) {
 }
 
 // ---- Output
-// -------------------------------------------------------------------------------------
 
 /// Y 1 of a `cie` image in cd/m^2.
 constexpr double white_luminance = 1000;

@@ -14,7 +14,6 @@ constexpr double deg = std::numbers::pi / 180;
 constexpr double arcsec = deg / 3600;
 
 // ---- Time
-// ---------------------------------------------------------------------------------------
 
 /// Reads RFC 3339 from left to right.
 class TimeReader {
@@ -125,7 +124,6 @@ double delta_t_s(double year) {
 }
 
 // ---- The Earth's orbit
-// --------------------------------------------------------------------------
 
 /// amplitude cos(phase + frequency t), t in thousands of Julian years from J2000.
 struct Term {

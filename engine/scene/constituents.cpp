@@ -17,7 +17,6 @@ void check_same_length(const std::vector<double>& of, const std::string& name,
 }
 
 // ---- Profiles
-// -----------------------------------------------------------------------------------
 
 ObjectOf<TableProfile> table_profile() {
   return object<TableProfile>(
@@ -59,7 +58,6 @@ Spelled<Profile> profile() {
 }
 
 // ---- Phase functions
-// ----------------------------------------------------------------------------
 
 template <class T>
 ObjectOf<T> asymmetry() {
@@ -108,7 +106,6 @@ Spelled<Phase> phase() {
 }
 
 // ---- Molecules
-// ----------------------------------------------------------------------------------
 
 ObjectOf<Gas> gas() {
   return object<Gas>(
@@ -140,7 +137,6 @@ ObjectOf<Molecules> molecules() {
 }
 
 // ---- Particles
-// ----------------------------------------------------------------------------------
 
 Spelled<Spectrum> fraction() { return spectrum(0, 1); }
 
@@ -222,7 +218,6 @@ ObjectOf<Particles> particles() {
 }
 
 // ---- Absorbers
-// ----------------------------------------------------------------------------------
 
 ObjectOf<Absorber> absorber() {
   return object<Absorber>(Forms<Absorber>(

@@ -14,7 +14,6 @@
 namespace cyanometer {
 
 // ---- Spectra
-// ------------------------------------------------------------------------------------
 
 /// value (l / at_nm)^exponent at the wavelength l.
 struct PowerLaw {
@@ -41,7 +40,6 @@ struct SampledSpectrum {
 using Spectrum = std::variant<double, PerWavelength, PowerLaw, SampledSpectrum>;
 
 // ---- Constituents
-// -------------------------------------------------------------------------------
 
 /// exp(-h / scale_height): 1 at the ground.
 struct ExponentialProfile {
@@ -167,7 +165,6 @@ struct Constituent {
 };
 
 // ---- The parts of a scene
-// -----------------------------------------------------------------------
 
 /// `ground_albedo` everywhere.
 struct UniformSurface {

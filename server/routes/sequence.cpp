@@ -39,7 +39,6 @@ void check_count(const std::string& pointer, double count, const Config& config)
 }
 
 // ---- Refinement
-// -------------------------------------------------------------------------------
 
 /// The scene by ever more random walks, or within ever smaller errors.
 std::vector<Scene> coarser(const Scene& scene) {
@@ -77,7 +76,6 @@ Sequence refinement(const json& document) {
 }
 
 // ---- Links
-// ------------------------------------------------------------------------------------
 
 struct Link {
   Fields scene;
@@ -118,7 +116,6 @@ Link read_link(const Fields& query) {
 }
 
 // ---- Frames
-// -----------------------------------------------------------------------------------
 
 Sequence patched(const json& scene, const FramePatches& patches, const Config& config) {
   check_count("/frames", patches.count, config);

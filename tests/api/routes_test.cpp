@@ -48,7 +48,6 @@ void expect_problem(const httplib::Result& answer, int status,
 }
 
 // ---- render
-// ---------------------------------------------------------------------------------------
 
 TEST(Render, ASceneBecomesAPngThatSaysHowItWasMade) {
   const auto answer = post("/v1/render", small_scene());
@@ -203,7 +202,6 @@ TEST(Render, AFrameThatNeedsTooMuchMemoryIsRefused) {
 }
 
 // ---- radiance and plan
-// ----------------------------------------------------------------------------
 
 TEST(Radiance, EachDirectionHasAValueForEachWavelength) {
   const json body{{"scene", {{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}}}},
@@ -328,7 +326,6 @@ TEST(Plan, IsTheSameAsThatOfTheFrame) {
 }
 
 // ---- compare and explain
-// ---------------------------------------------------------------------------
 
 /// Quick to compare: three wavelengths, single scattering, no plan.
 json quick_scene(double albedo = 0.1) {
@@ -482,7 +479,6 @@ TEST(Explain, RefusesAsOtherRoutesDo) {
 }
 
 // ---- what the page draws
-// ----------------------------------------------------------------------------
 
 TEST(Optics, ConstituentsComeAsCurves) {
   const auto answer = json_of(post("/v1/optics", {{"preset", "earth"}}));
@@ -591,7 +587,6 @@ TEST(Chart, RefusesAsOtherRoutesDo) {
 }
 
 // ---- lists, documents, operations
-// -----------------------------------------------------------------
 
 TEST(Lists, MethodsComeWithTheirOptions) {
   const auto list = json_of(client().Get("/v1/methods")).at("methods");
@@ -710,7 +705,6 @@ TEST(Page, NothingOutsideItIsServed) {
 }
 
 // ---- methods and addresses
-// ------------------------------------------------------------------------
 
 TEST(Addresses, UnknownOnesAreNotFound) {
   expect_problem(client().Get("/v1/nothing"), 404);
@@ -753,7 +747,6 @@ TEST(Errors, NameTheRequest) {
 }
 
 // ---- parts
-// ----------------------------------------------------------------------------------------
 
 TEST(Accept, TheClosestRangeDecides) {
   const std::vector<std::string_view> types{"image/png", "image/x-exr", "image/jpeg"};

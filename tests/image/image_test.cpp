@@ -101,7 +101,7 @@ Bytes rgb_of(const Bytes& rgbx) {
   return rgb;
 }
 
-// ---- The table of formats -------------------------------------------------------------------
+// ---- The table of formats
 
 TEST(Encodings, AreOneForEachFormatWithNamesOfTheirOwn) {
   ASSERT_EQ(encodings().size(), 5u);
@@ -157,7 +157,6 @@ TEST(Encodings, ValuesThatAreNoNumbersDoNoHarm) {
 }
 
 // ---- PNG
-// --------------------------------------------------------------------------------------
 
 struct Png {
   Size size{};
@@ -221,7 +220,6 @@ TEST(Png, OfASmoothPictureIsSmall) {
 }
 
 // ---- JPEG
-// -------------------------------------------------------------------------------------
 
 struct Jpeg {
   Size size{};
@@ -287,7 +285,6 @@ TEST(Jpeg, CarriesADescriptionOfAnyLength) {
 }
 
 // ---- EXR
-// --------------------------------------------------------------------------------------
 
 class MemoryReader : public Imf::IStream {
  public:
@@ -441,7 +438,6 @@ TEST(Exr, ACubemapIsNoneOfItsOwnSinceItsFacesAreMirrored) {
 }
 
 // ---- HDR
-// --------------------------------------------------------------------------------------
 
 struct Hdr {
   std::vector<std::string> header;
@@ -537,7 +533,6 @@ TEST(Hdr, SaysWhatItsNumbersMean) {
 }
 
 // ---- NPY
-// --------------------------------------------------------------------------------------
 
 TEST(Npy, IsFloat32OfHeightWidthChannels) {
   for (const Size size : kSizes) {

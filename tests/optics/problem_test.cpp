@@ -149,7 +149,6 @@ TEST(Problem, TheSunStandsWhereItsAnglesSay) {
 }
 
 // ---- Output
-// -------------------------------------------------------------------------------------
 
 TEST(Output, OfAPerfectWhiteCardIsWhiteCard) {
   for (const std::vector<double>& nm :
