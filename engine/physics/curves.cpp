@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/optics/profile.h"
 #include "engine/optics/visibility.h"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
