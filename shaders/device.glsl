@@ -18,6 +18,13 @@
 #define OUT_ARRAY(T, name, n) out T name[n]
 #define INOUT_ARRAY(T, name, n) inout T name[n]
 #define INOUT(T) inout T
+// Tables are imageBuffers: on software devices a load from one costs a thirtieth of one from a storage buffer,
+// which is read lane by lane, and less than an exponential.
+#define READ(buffer, i) imageLoad(buffer, i)
+#define READ_REAL(buffer, i) imageLoad(buffer, i).x
+#define READ_UINT(buffer, i) imageLoad(buffer, i).x
+#define WRITE(buffer, i, value) imageStore(buffer, i, value)
+#define WRITE_REAL(buffer, i, value) imageStore(buffer, i, Vec4(value))
 
 layout(local_size_x = 64) in;
 
@@ -29,7 +36,11 @@ layout(constant_id = 3) const int UNIFORMS = 0;
 layout(constant_id = 4) const int TABLES = 0;
 layout(constant_id = 5) const int MEDIA_SIZE = 1;  // of arrays: their sum, at least 1
 layout(constant_id = 6) const int GROUPS = 1;      // wavelengths come in groups of four
+#ifdef ANY_PROJECTION  // of a kernel whose rays take long: one pipeline for pictures and for lists of directions
+#define PROJECTION scene.projection
+#else
 layout(constant_id = 7) const int PROJECTION = 0;
+#endif
 layout(constant_id = 8) const bool NEAR_SUN = false;
 layout(constant_id = 9) const bool MANY_SUNS = false;  // more than one point of the disc
 // Software devices run both sides of a branch: a kernel that is told that no phase function is tabulated
@@ -49,24 +60,25 @@ layout(std430, binding = 0) restrict readonly buffer SceneBuffer { SceneData sto
 layout(std430, binding = 1) restrict readonly buffer MediaBuffer { MediumData media[]; };
 // By wavelength, in groups of four: ground albedo, limb-darkening exponent, then for each constituent
 // extinction, scattering (1/km where its profile is 1) and depolarisation gamma.
-layout(std430, binding = 2) restrict readonly buffer SpectraBuffer { Vec4 spectra[]; };
-layout(std430, binding = 3) restrict readonly buffer ProfileBuffer { Vec4 profile_nodes[]; };
-layout(std430, binding = 4) restrict readonly buffer AngleBuffer { Real phase_angles[]; };
-layout(std430, binding = 5) restrict readonly buffer PhaseBuffer { Vec4 phase_values[]; };
+layout(binding = 2, rgba32f) uniform restrict readonly imageBuffer spectra;
+layout(binding = 3, rgba32f) uniform restrict readonly imageBuffer profile_nodes;
+layout(binding = 4, r32f) uniform restrict readonly imageBuffer phase_angles;
+layout(binding = 5, rgba32f) uniform restrict readonly imageBuffer phase_values;
 // Points of the sun's disc: offset in the plane of the disc in units of the sine of its radius, then
 // for each group of wavelengths the point's weight.
-layout(std430, binding = 6) restrict readonly buffer SunBuffer { Vec4 sun_points[]; };
-layout(std430, binding = 7) restrict readonly buffer DirectionBuffer { Vec4 directions[]; };
-layout(std430, binding = 8) restrict readonly buffer QuadratureBuffer { Vec2 quadrature[]; };
+layout(binding = 6, rgba32f) uniform restrict readonly imageBuffer sun_points;
+layout(binding = 7, rgba32f) uniform restrict readonly imageBuffer directions;
+layout(binding = 8, rgba32f) uniform restrict readonly imageBuffer quadrature;  // node, weight; then kinks
 // How the ground differs from place to place (surface/data.glsl).
-layout(std430, binding = 9) restrict readonly buffer SurfaceBuffer { Vec4 surface_values[]; };
+layout(binding = 9, rgba32f) uniform restrict readonly imageBuffer surface_values;
 // Where rays end, km from the camera: one for all, or one a ray.
-layout(std430, binding = 10) restrict readonly buffer EndBuffer { Real ends_km[]; };
-layout(std430, binding = 11) restrict readonly buffer TexelBuffer { uint surface_texels[]; };  // of a map
+layout(binding = 10, r32f) uniform restrict readonly imageBuffer ends_km;
+layout(binding = 11, r32ui) uniform restrict readonly uimageBuffer surface_texels;  // of a map
 #define OWN 12  // a shader's own bindings: OWN, OWN + 1, ...
 
-// What is used in loops is read once into registers: on software devices a load from a buffer costs more
-// than an exponential. A shader's main() begins with load_scene(), and load_media() where it marches.
+// A shader's main() begins with load_scene(), and load_media() where it marches, before any branch: what is not
+// yet masked and the same for all invocations is one scalar load on software devices (64 floats of a structure
+// take 25 ns then, behind a branch 430).
 SceneData scene;
 MediumData medium_[MEDIA_SIZE];
 Vec4 extinction_[MEDIA_GROUPS_SIZE];
@@ -78,8 +90,8 @@ void load_media() {
   UNROLL for (int c = 0; c < MEDIA; ++c) {
     medium_[c] = media[c];
     UNROLL for (int group = 0; group < GROUPS; ++group) {
-      extinction_[c * GROUPS + group] = spectra[(2 + 3 * c) * GROUPS + group];
-      scattering_[c * GROUPS + group] = spectra[(3 + 3 * c) * GROUPS + group];
+      extinction_[c * GROUPS + group] = READ(spectra, (2 + 3 * c) * GROUPS + group);
+      scattering_[c * GROUPS + group] = READ(spectra, (3 + 3 * c) * GROUPS + group);
     }
   }
 }
@@ -87,12 +99,12 @@ void load_media() {
 #define medium(c) medium_[c]
 #define extinction(c, group) extinction_[(c) * GROUPS + (group)]
 #define scattering(c, group) scattering_[(c) * GROUPS + (group)]
-#define depolarisation(c, group) spectra[(4 + 3 * (c)) * GROUPS + (group)]
-#define ground_albedo(group) spectra[group]
-#define surface_texel(i) surface_texels[i]
-#define limb_exponent(group) spectra[GROUPS + (group)]
-#define sun_offset(k) sun_points[(k) * (GROUPS + 1)].xyz
-#define sun_weight(k, group) sun_points[(k) * (GROUPS + 1) + 1 + (group)]
+#define depolarisation(c, group) READ(spectra, (4 + 3 * (c)) * GROUPS + (group))
+#define ground_albedo(group) READ(spectra, group)
+#define surface_texel(i) READ_UINT(surface_texels, i)
+#define limb_exponent(group) READ(spectra, GROUPS + (group))
+#define sun_offset(k) READ(sun_points, (k) * (GROUPS + 1)).xyz
+#define sun_weight(k, group) READ(sun_points, (k) * (GROUPS + 1) + 1 + (group))
 
 #include "physics/physics.glsl"
 

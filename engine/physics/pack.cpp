@@ -147,21 +147,21 @@ bool has_layers(const Problem& problem) {
 }
 
 /// (node, weight) of all rules of up to `most` nodes, one after another.
-std::vector<glm::dvec2> gauss_rules(int most) {
-  std::vector<glm::dvec2> all;
+std::vector<glm::dvec4> gauss_rules(int most) {
+  std::vector<glm::dvec4> all;
   for (int nodes = 1; nodes <= most; ++nodes) {
     GaussRule rule = gauss_legendre(nodes);
-    for (int i = 0; i < nodes; ++i) all.emplace_back(rule.nodes[i], rule.weights[i]);
+    for (int i = 0; i < nodes; ++i) all.emplace_back(rule.nodes[i], rule.weights[i], 0, 0);
   }
   return all;
 }
 
 template <class Real>
 void append_quadrature(Physics<Real>& p, const Problem& problem) {
-  static const std::vector<glm::dvec2> rules = gauss_rules(Physics<Real>::MOST_GAUSS_NODES);
+  static const std::vector<glm::dvec4> rules = gauss_rules(Physics<Real>::MOST_GAUSS_NODES);
   p.quadrature.assign(rules.begin(), rules.end());
   std::vector<double> kinks = profile_kinks_km(problem);
-  for (double altitude : kinks) p.quadrature.emplace_back(altitude, 0);
+  for (double altitude : kinks) p.quadrature.emplace_back(altitude, 0, 0, 0);
   p.scene.kinks = static_cast<int>(kinks.size());
   p.scene.view_scale_km = static_cast<Real>(view_scale_km(problem));
   p.scene.layers = has_layers(problem) ? 1 : 0;
@@ -175,7 +175,7 @@ double pixel_rad(const Physics<Real>& p) {
   camera.scene.half_fov_rad = p.scene.half_fov_rad;
   camera.scene.width = p.scene.width;
   camera.scene.height = p.scene.height;
-  camera.PROJECTION = p.PROJECTION;
+  camera.scene.projection = p.scene.projection;
   return camera.pixel_angle();
 }
 
@@ -200,7 +200,7 @@ void set_camera(Physics<Real>& p, const Problem& problem) {
   }
   p.scene.width = problem.width;
   p.scene.height = problem.height;
-  p.PROJECTION = static_cast<int>(camera.projection);
+  p.scene.projection = static_cast<int>(camera.projection);
   p.scene.pixel_rad = static_cast<Real>(pixel_rad(p));
 }
 
@@ -292,15 +292,16 @@ void set_directions(Physics<Real>& physics, const std::vector<glm::dvec3>& direc
   for (const glm::dvec3& d : directions) {
     physics.directions.emplace_back(glm::vec<3, Real>(d), Real(0));
   }
-  physics.PROJECTION = Physics<Real>::PROJECTION_LIST;
+  physics.scene.projection = Physics<Real>::PROJECTION_LIST;
 }
 
 std::vector<std::uint32_t> specialization(const Physics<float>& p) {
   auto bits = [](int value) { return static_cast<std::uint32_t>(value); };
-  return {bits(p.EXPONENTIALS), bits(p.TENTS),      bits(p.QUADRATICS),
-          bits(p.UNIFORMS),     bits(p.TABLES),     bits(std::max(p.MEDIA, 1)),
-          bits(p.GROUPS),       bits(p.PROJECTION), bits(p.NEAR_SUN),
-          bits(p.MANY_SUNS)};
+  return {bits(p.EXPONENTIALS), bits(p.TENTS),
+          bits(p.QUADRATICS),   bits(p.UNIFORMS),
+          bits(p.TABLES),       bits(std::max(p.MEDIA, 1)),
+          bits(p.GROUPS),       bits(p.scene.projection),
+          bits(p.NEAR_SUN),     bits(p.MANY_SUNS)};
 }
 
 template Physics<float> pack<float>(const Problem&);

@@ -41,6 +41,9 @@ using glm::uintBitsToFloat;
 #define OUT_ARRAY(T, name, n) T(&name)[n]
 #define INOUT_ARRAY(T, name, n) T(&name)[n]
 #define INOUT(T) T&
+#define READ(buffer, i) buffer[i]
+#define READ_REAL(buffer, i) buffer[i]
+#define PROJECTION scene.projection
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -67,7 +70,7 @@ struct Physics {
   static constexpr int MEDIA_GROUPS_SIZE = MEDIA_SIZE * GROUPS_SIZE;
   int EXPONENTIALS = 0, TENTS = 0, QUADRATICS = 0, UNIFORMS = 0, TABLES = 0;
   int COLUMN_NODES = 8;  ///< 8 or 4
-  int MEDIA = 0, GROUPS = 1, PROJECTION = PROJECTION_PERSPECTIVE;
+  int MEDIA = 0, GROUPS = 1;
   bool NEAR_SUN = false, MANY_SUNS = false, PHASE_TABLES = true;
 
   // Buffers, in the order of their bindings.
@@ -79,8 +82,8 @@ struct Physics {
   std::vector<Vec4> phase_values;
   std::vector<Vec4> sun_points;
   std::vector<Vec4> directions;
-  std::vector<Vec2> quadrature;
-  int SURFACE_KIND = 0;  ///< 0 too where a kernel has nothing to do with it
+  std::vector<Vec4> quadrature;  ///< node, weight; then kinks
+  int SURFACE_KIND = 0;          ///< 0 too where a kernel has nothing to do with it
   std::vector<Vec4> surface_values;
   std::shared_ptr<const std::vector<Uint>> surface_texels;  ///< of a map; null without one
   std::vector<Real> ends_km{Real(1e30)};
@@ -153,6 +156,9 @@ struct Physics {
 #undef OUT_ARRAY
 #undef INOUT_ARRAY
 #undef INOUT
+#undef READ
+#undef READ_REAL
+#undef PROJECTION
 
 static_assert(sizeof(Physics<float>::SceneData) == 160);
 static_assert(sizeof(Physics<float>::MediumData) == 32);

@@ -63,7 +63,7 @@ std::optional<int> cubemap_pixel(const P& p, const glm::dvec3& v) {
 
 std::optional<int> pixel_of(const P& camera, const glm::dvec3& direction) {
   glm::dvec3 v = camera_frame(camera, direction);
-  switch (camera.PROJECTION) {
+  switch (camera.scene.projection) {
     case P::PROJECTION_PERSPECTIVE:
       return perspective_pixel(camera, v);
     case P::PROJECTION_FISHEYE:
@@ -80,7 +80,7 @@ std::optional<int> pixel_of(const P& camera, const glm::dvec3& direction) {
 double pixel_solid_angle(P& camera, int pixel) {
   glm::dvec3 v = camera_frame(camera, camera.pixel_ray(pixel).direction);
   auto square = [](double x) { return x * x; };
-  switch (camera.PROJECTION) {
+  switch (camera.scene.projection) {
     case P::PROJECTION_PERSPECTIVE:
       return square(2 * camera.scene.tan_half_fov / camera.scene.height) * v.z * v.z * v.z;
     case P::PROJECTION_FISHEYE: {

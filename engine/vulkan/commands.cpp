@@ -21,15 +21,18 @@ constexpr VkAccessFlags kWrites = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFE
 constexpr VkAccessFlags kReads = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
 
 using DescriptorPool = Owned<VkDescriptorPool, &vkDestroyDescriptorPool>;
+using BufferView = Owned<VkBufferView, &vkDestroyBufferView>;
 
 std::unique_ptr<DescriptorPool> make_descriptor_pool(const std::shared_ptr<Device::Core>& core,
                                                      std::uint32_t descriptors) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, descriptors};
+  const std::array sizes{
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, descriptors},
+      VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, descriptors}};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = descriptors;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &size;
+  info.poolSizeCount = sizes.size();
+  info.pPoolSizes = sizes.data();
   auto pool = std::make_unique<DescriptorPool>(core);
   check(vkCreateDescriptorPool(core->device, &info, nullptr, pool->out()),
         "vkCreateDescriptorPool");
@@ -124,6 +127,7 @@ struct Commands::State {
   void record();
   void wait_for_previous();
   void show_to_host();
+  VkBufferView view(const Binding& binding, VkFormat format);
   VkDescriptorSet bind(const Kernel::Program& program, std::span<const Binding> bindings);
   void bind_pipeline(Kernel::Program& program, const Specialization& specialization,
                      const Kernel::Program::PipelineToBe& made);
@@ -215,23 +219,43 @@ void Commands::State::show_to_host() {
                        0, nullptr);
 }
 
+/// Part of a buffer as texels.
+VkBufferView Commands::State::view(const Binding& binding, VkFormat format) {
+  VkBufferViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+  info.buffer = *binding.buffer.allocation()->buffer;
+  info.format = format;
+  info.offset = binding.offset;
+  info.range = size_of(binding);
+  auto view = std::make_shared<BufferView>(core);
+  check(vkCreateBufferView(core->device, &info, nullptr, view->out()), "vkCreateBufferView");
+  keep(view);
+  return **view;
+}
+
 VkDescriptorSet Commands::State::bind(const Kernel::Program& program,
                                       std::span<const Binding> bindings) {
   const VkDescriptorSet set = sets.make(program);
-  std::vector<VkDescriptorBufferInfo> buffers;
-  for (const Binding& binding : bindings) {
-    buffers.push_back({*binding.buffer.allocation()->buffer, binding.offset, size_of(binding)});
-    keep(binding.buffer.allocation());
-  }
-  VkWriteDescriptorSet write{};
-  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-  write.dstSet = set;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  write.descriptorCount = 1;
-  std::vector<VkWriteDescriptorSet> writes(buffers.size(), write);
-  for (std::uint32_t i = 0; i < writes.size(); ++i) {
-    writes[i].dstBinding = i;
-    writes[i].pBufferInfo = &buffers[i];
+  std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+  std::vector<VkBufferView> views(bindings.size());
+  std::vector<VkWriteDescriptorSet> writes;
+  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = set;
+    write.dstBinding = i;
+    write.descriptorType = program.descriptor_type(i);
+    write.descriptorCount = 1;
+    if (program.texel_formats[i] == VK_FORMAT_UNDEFINED) {
+      buffers[i] = {*bindings[i].buffer.allocation()->buffer, bindings[i].offset,
+                    size_of(bindings[i])};
+      write.pBufferInfo = &buffers[i];
+    } else {
+      views[i] = view(bindings[i], program.texel_formats[i]);
+      write.pTexelBufferView = &views[i];
+    }
+    writes.push_back(write);
+    keep(bindings[i].buffer.allocation());
   }
   vkUpdateDescriptorSets(core->device, static_cast<std::uint32_t>(writes.size()), writes.data(),
                          0, nullptr);
@@ -313,7 +337,7 @@ void Commands::dispatch(const Kernel& kernel, const Specialization& specializati
   Kernel::Program& program = *kernel.program();
   const Limits& limits = state_->core->limits;
   require(bindings.size() == program.bindings,
-          "a kernel of " + std::to_string(program.bindings) + " storage buffers was given " +
+          "a kernel of " + std::to_string(program.bindings) + " buffers was given " +
               std::to_string(bindings.size()));
   require(push.size() == program.push_bytes,
           "a kernel of " + std::to_string(program.push_bytes) +

@@ -165,13 +165,19 @@ Limits limits_of(VkPhysicalDevice physical, const VkPhysicalDeviceMemoryProperti
   vkGetPhysicalDeviceProperties2(physical, &properties);
   const VkPhysicalDeviceLimits& device = properties.properties.limits;
   Limits limits;
-  limits.max_storage_range = device.maxStorageBufferRange;
+  // Most tables hold texels of four floats; what holds one a texel is as long as a frame at
+  // most.
+  constexpr std::size_t texel_bytes = 16;
+  limits.max_storage_range = std::min<std::size_t>(device.maxStorageBufferRange,
+                                                   texel_bytes * device.maxTexelBufferElements);
   limits.max_allocation = allocation.maxMemoryAllocationSize;
-  limits.storage_alignment = device.minStorageBufferOffsetAlignment;
+  limits.storage_alignment =
+      std::max(device.minStorageBufferOffsetAlignment, device.minTexelBufferOffsetAlignment);
   limits.max_groups = std::to_array(device.maxComputeWorkGroupCount);
   limits.max_group_size = std::to_array(device.maxComputeWorkGroupSize);
   limits.max_invocations = device.maxComputeWorkGroupInvocations;
-  limits.max_bindings = device.maxPerStageDescriptorStorageBuffers;
+  limits.max_bindings = std::min(device.maxPerStageDescriptorStorageBuffers,
+                                 device.maxPerStageDescriptorStorageImages);
   limits.max_shared_bytes = device.maxComputeSharedMemorySize;
   limits.max_push_bytes = device.maxPushConstantsSize;
   limits.subgroup_size = subgroup.subgroupSize;

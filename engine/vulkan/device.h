@@ -48,7 +48,7 @@ struct Limits {
   std::array<std::uint32_t, 3> max_groups{};      ///< of one dispatch, by dimension
   std::array<std::uint32_t, 3> max_group_size{};  ///< invocations of a group, by dimension
   std::uint32_t max_invocations = 0;              ///< of a group
-  std::uint32_t max_bindings = 0;                 ///< storage buffers of a kernel
+  std::uint32_t max_bindings = 0;                 ///< buffers of a kernel
   std::size_t max_shared_bytes = 0;               ///< of a group
   std::size_t max_push_bytes = 0;
   std::uint32_t subgroup_size = 1;

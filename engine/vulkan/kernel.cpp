@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/vulkan/program.h"
+#include "engine/vulkan/spirv.h"
 
 namespace cyanometer::vulkan {
 namespace {
@@ -23,7 +24,7 @@ void make_set_layout(Kernel::Program& program) {
   std::vector<VkDescriptorSetLayoutBinding> bindings(program.bindings);
   for (std::uint32_t i = 0; i < program.bindings; ++i) {
     bindings[i].binding = i;
-    bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    bindings[i].descriptorType = program.descriptor_type(i);
     bindings[i].descriptorCount = 1;
     bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
   }
@@ -75,7 +76,7 @@ std::shared_ptr<Kernel::Program> program_of(const std::shared_ptr<Device::Core>&
 
 Kernel::Kernel(Device& device, std::span<const std::uint32_t> spirv, std::uint32_t bindings,
                std::size_t push_bytes) {
-  require(bindings, device.limits().max_bindings, "storage buffers");
+  require(bindings, device.limits().max_bindings, "buffers");
   require(push_bytes, device.limits().max_push_bytes, "bytes of push constants");
   program_ = program_of(device.core(), spirv, bindings, push_bytes);
 }
@@ -90,6 +91,8 @@ Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_,
     : core(core_),
       spirv(spirv_.begin(), spirv_.end()),
       bindings(bindings_),
+      constant_ids(vulkan::constant_ids(spirv)),
+      texel_formats(vulkan::texel_formats(spirv, bindings)),
       push_bytes(push_bytes_),
       module(core_),
       set_layout(core_),
@@ -97,19 +100,34 @@ Kernel::Program::Program(const std::shared_ptr<Device::Core>& core_,
   core->programs.push_back(this);
 }
 
+VkDescriptorType Kernel::Program::descriptor_type(std::uint32_t binding) const {
+  return texel_formats[binding] == VK_FORMAT_UNDEFINED
+             ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+             : VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+}
+
 Kernel::Program::~Program() {
   std::erase(core->programs, this);
   core->pipelines_kept -= pipelines_.size();
 }
 
+Kernel::Program::Values Kernel::Program::values_of(const Specialization& specialization) const {
+  Values values;
+  for (std::uint32_t id : constant_ids) {
+    if (id < specialization.size()) values.push_back(specialization[id]);
+  }
+  return values;
+}
+
 Kernel::Program::PipelineToBe Kernel::Program::pipeline(const Specialization& specialization) {
-  auto found = pipelines_.find(specialization);
+  const Values values = values_of(specialization);
+  auto found = pipelines_.find(values);
   if (found == pipelines_.end()) {
     if (core->pipelines_kept >= core->most_pipelines) forget_least_used_pipeline(*core);
     // Deferred where there can be no other thread.
     PipelineToBe made = std::async(std::launch::async | std::launch::deferred,
-                                   [this, specialization] { return make(specialization); });
-    found = pipelines_.emplace(specialization, Kept{std::move(made)}).first;
+                                   [this, values] { return make(values); });
+    found = pipelines_.emplace(values, Kept{std::move(made)}).first;
     ++core->pipelines_kept;
     ++core->pipelines_made;
   }
@@ -118,7 +136,7 @@ Kernel::Program::PipelineToBe Kernel::Program::pipeline(const Specialization& sp
 }
 
 void Kernel::Program::forget(const Specialization& specialization) {
-  core->pipelines_kept -= pipelines_.erase(specialization);
+  core->pipelines_kept -= pipelines_.erase(values_of(specialization));
 }
 
 void forget_least_used_pipeline(Device::Core& core) {
@@ -135,14 +153,14 @@ void forget_least_used_pipeline(Device::Core& core) {
   --core.pipelines_kept;
 }
 
-std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::make(
-    const Specialization& specialization) const {
+std::shared_ptr<Kernel::Program::Pipeline> Kernel::Program::make(const Values& values) const {
   std::vector<VkSpecializationMapEntry> entries;
-  for (std::uint32_t id = 0; id < specialization.size(); ++id)
-    entries.push_back({id, id * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});
-  const VkSpecializationInfo constants{
-      static_cast<std::uint32_t>(entries.size()), entries.data(),
-      specialization.size() * sizeof(std::uint32_t), specialization.data()};
+  for (std::uint32_t i = 0; i < values.size(); ++i)
+    entries.push_back(
+        {constant_ids[i], i * std::uint32_t{sizeof(std::uint32_t)}, sizeof(std::uint32_t)});
+  const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()),
+                                       entries.data(), values.size() * sizeof(std::uint32_t),
+                                       values.data()};
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;

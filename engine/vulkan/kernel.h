@@ -15,9 +15,11 @@ namespace cyanometer::vulkan {
 /// idle.
 using Specialization = std::vector<std::uint32_t>;
 
-/// SPIR-V with entry point `main` that uses the storage buffers 0 to bindings - 1 of set 0. Its
-/// pipelines are made at first use, one a specialization; of all kernels' the device keeps
-/// those used last (Device::keep_pipelines). Kernels of the same code share theirs.
+/// SPIR-V with entry point `main` that uses the buffers 0 to bindings - 1 of set 0, as storage
+/// buffers or, where it declares an imageBuffer, as texels (shaders/device.glsl says why). Its
+/// pipelines are made at first use, one for all specializations that are alike in the constants
+/// that the code has; of all kernels' the device keeps those used last
+/// (Device::keep_pipelines). Kernels of the same code share theirs.
 class Kernel {
  public:
   /// @throws std::invalid_argument where the device has fewer bindings or push constants

@@ -20,14 +20,18 @@ struct Kernel::Program : std::enable_shared_from_this<Kernel::Program> {
   ~Program();
   Program(const Program&) = delete;
 
-  /// That of a specialization, which is begun where there is none yet.
+  /// That of a specialization, which is begun where there is none yet. Those that differ only
+  /// in constants that the code lacks are one.
   PipelineToBe pipeline(const Specialization& specialization);
+  VkDescriptorType descriptor_type(std::uint32_t binding) const;
   /// Where it could not be made: the next that asks tries again.
   void forget(const Specialization& specialization);
 
   const std::shared_ptr<Device::Core> core;
   const std::vector<std::uint32_t> spirv;
   const std::uint32_t bindings;
+  const std::vector<std::uint32_t> constant_ids;  ///< of the constants that it has
+  const std::vector<VkFormat> texel_formats;      ///< by binding; undefined: no texels
   const std::size_t push_bytes;
   Owned<VkShaderModule, &vkDestroyShaderModule> module;
   Owned<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout> set_layout;
@@ -38,10 +42,13 @@ struct Kernel::Program : std::enable_shared_from_this<Kernel::Program> {
     PipelineToBe pipeline;
     std::uint64_t last_use = 0;
   };
-  std::shared_ptr<Pipeline> make(const Specialization& specialization) const;
+  /// By constant of the code, in the order of constant_ids; fewer where not all are given.
+  using Values = std::vector<std::uint32_t>;
+  Values values_of(const Specialization& specialization) const;
+  std::shared_ptr<Pipeline> make(const Values& values) const;
   friend void forget_least_used_pipeline(Device::Core& core);
 
-  std::map<Specialization, Kept> pipelines_;  ///< last: ends before what its threads use
+  std::map<Values, Kept> pipelines_;  ///< last: ends before what its threads use
 };
 
 /// Of all kernels'. @pre one is kept

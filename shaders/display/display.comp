@@ -11,10 +11,10 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const int TONE_MAP = 0;
 layout(constant_id = 1) const bool PAINT_CLIPPED = false;
 
-layout(std430, binding = 0) restrict readonly buffer Red { float red[]; };
-layout(std430, binding = 1) restrict readonly buffer Green { float green[]; };
-layout(std430, binding = 2) restrict readonly buffer Blue { float blue[]; };
-layout(std430, binding = 3) restrict writeonly buffer Pixels { uint pixels[]; };
+layout(binding = 0, r32f) uniform restrict readonly imageBuffer red;
+layout(binding = 1, r32f) uniform restrict readonly imageBuffer green;
+layout(binding = 2, r32f) uniform restrict readonly imageBuffer blue;
+layout(binding = 3, r32ui) uniform restrict writeonly uimageBuffer pixels;
 
 layout(push_constant) uniform Push {
   vec4 row0;  // exposure times white balance
@@ -28,12 +28,12 @@ void main() {
   int i = push.first + int(gl_GlobalInvocationID.x);
   if (i >= push.end) return;
   vec3 linear = by_rows(push.row0.xyz, push.row1.xyz, push.row2.xyz,
-                        vec3(red[i], green[i], blue[i]));
+                        vec3(imageLoad(red, i).x, imageLoad(green, i).x, imageLoad(blue, i).x));
   vec3 shown = tone_mapped(TONE_MAP, into_gamut(linear));
   bool clipped = max(shown.x, max(shown.y, shown.z)) > 1.0;
   shown = clamp(shown, 0.0, 1.0);
   vec3 encoded = vec3(srgb_encoded(shown.x), srgb_encoded(shown.y), srgb_encoded(shown.z));
   if (PAINT_CLIPPED && clipped) encoded = vec3(1.0, 0.0, 1.0);
   uvec3 bytes = uvec3(encoded * 255.0 + 0.5);
-  pixels[i] = bytes.x | (bytes.y << 8) | (bytes.z << 16) | 0xff000000u;
+  imageStore(pixels, i, uvec4(bytes.x | (bytes.y << 8) | (bytes.z << 16) | 0xff000000u));
 }

@@ -23,18 +23,22 @@ Vec4 most_later_orders(Vec4 last, Vec4 later_over_last_at_noon, Vec4 largest_sha
   return last * share / (1.0 - share);
 }
 
-// The rest is there where CHUNK_VECTOR(n, i) is defined: value i of CHUNK_VALUES of a vector n that may be overwritten.
-#ifdef CHUNK_VECTOR
+// The rest is there where CHUNK_BUFFER is defined, which at CHUNK_PLACE(n, i) has value i of CHUNK_VALUES of a vector n
+// that may be overwritten.
+#ifdef CHUNK_BUFFER
+Vec4 vector_value(int n, int i) { return READ(CHUNK_BUFFER, CHUNK_PLACE(n, i)); }
+void set_vector_value(int n, int i, Vec4 value) { WRITE(CHUNK_BUFFER, CHUNK_PLACE(n, i), value); }
+
 Vec4 product_of_vectors(int a, int b) {
   Vec4 sum = Vec4(0.0);
-  for (int i = 0; i < CHUNK_VALUES; ++i) sum = sum + CHUNK_VECTOR(a, i) * CHUNK_VECTOR(b, i);
+  for (int i = 0; i < CHUNK_VALUES; ++i) sum = sum + vector_value(a, i) * vector_value(b, i);
   return sum;
 }
 
 // Takes `share` of the vector a from b.
 void subtract_vector(int a, Vec4 share, int b) {
   for (int i = 0; i < CHUNK_VALUES; ++i) {
-    CHUNK_VECTOR(b, i) = CHUNK_VECTOR(b, i) - CHUNK_VECTOR(a, i) * share;
+    set_vector_value(b, i, vector_value(b, i) - vector_value(a, i) * share);
   }
 }
 

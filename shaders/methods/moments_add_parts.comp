@@ -4,8 +4,8 @@
 #include "methods/moments_parts.glsl"
 
 // Adds to pixels whose rays end at something, and that have order one already, what was scattered more than once.
-layout(std430, binding = OWN + 2) restrict readonly buffer SkyBuffer { Vec4 sky[]; };
-layout(std430, binding = OWN + 3) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict readonly imageBuffer sky;
+layout(binding = OWN + 3, rgba32f) uniform restrict imageBuffer tile;
 
 layout(push_constant) uniform Push {
   MomentGrid grid;
@@ -20,11 +20,11 @@ const int SKY_VALUES = PART_STOPS * 2 * GROUPS;
 #include "methods/moments_pixel.glsl"
 
 void main() {
+  load_scene();
+  load_media();
   int i = int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= n) return;
-  load_scene();
-  load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
   if (!path.cut) return;
@@ -50,11 +50,11 @@ void main() {
       light = light * max(1.0 + aureole_light * aureole_towards(angle, g), 0.0);
     }
     int to = (INSCATTER * GROUPS + g) * n + i;
-    tile[to] = tile[to] + light * part_scattered(column, g);
+    WRITE(tile, to, READ(tile, to) + light * part_scattered(column, g));
   }
   if (!ends_on_ground(path)) return;
   Vec4 ground[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) ground[g] = Vec4(0.0);
   add_sky_on_ground(path, ground);
-  UNROLL for (int g = 0; g < GROUPS; ++g) tile[(GROUND * GROUPS + g) * n + i] = ground[g];
+  UNROLL for (int g = 0; g < GROUPS; ++g) WRITE(tile, (GROUND * GROUPS + g) * n + i, ground[g]);
 }

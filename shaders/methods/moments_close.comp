@@ -28,19 +28,19 @@ void main() {
   if (push.chunks > 1) {
     later = later_orders(s, at, g);
     Vec4 last = max(chunk(push.chunks - 1, at), Vec4(0.0));
-    Vec4 to_last = moments[vector_at(0, i, push.grid.suns - 1) + g];  // at noon
+    Vec4 to_last = READ(moments, vector_at(0, i, push.grid.suns - 1) + g);  // at noon
     Vec4 most = most_later_orders(last, to_last, Vec4(LARGEST_SHARE));
-    if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - moments[sum], Vec4(0.0)));
+    if (!NEAR_SUN) most = min(most, max((ground ? PI : 1.0) * LARGEST_MEAN - READ(moments, sum), Vec4(0.0)));
     // Where the lowest moment has nothing to add, the others have not.
     allowed = min(most, later) / max(later, Vec4(1e-30));
   }
-  Vec4 lowest = moments[sum] + later * allowed;
-  moments[sum] = moment_logarithm(lowest);
+  Vec4 lowest = READ(moments, sum) + later * allowed;
+  WRITE(moments, sum, moment_logarithm(lowest));
   if (ground) return;
   UNROLL for (int n = 1; n < SLOTS; ++n) {
     int own = n * GROUPS;
     Vec4 more = Vec4(0.0);
-    for (int m = 1; m < push.chunks; ++m) more = more + chunk(m, at + own) * moments[weight_at(m, s) + g];
-    moments[sum + own] = moment_ratio(moments[sum + own] + more * allowed, lowest);
+    for (int m = 1; m < push.chunks; ++m) more = more + chunk(m, at + own) * READ(moments, weight_at(m, s) + g);
+    WRITE(moments, sum + own, moment_ratio(READ(moments, sum + own) + more * allowed, lowest));
   }
 }

@@ -13,11 +13,11 @@ const int ORDER_SLOTS = (SLOTS - 1) / 2 + 1;             // the logarithm, then 
 
 #include "methods/moments.glsl"
 
-layout(std430, binding = OWN + 1) restrict buffer RayBuffer { Vec4 ray_data[]; };
-layout(std430, binding = OWN + 2) restrict buffer LightBuffer { Vec4 light[]; };
-layout(std430, binding = OWN + 3) restrict buffer MomentBuffer { Vec4 moments[]; };
-layout(std430, binding = OWN + 4) restrict buffer RowBuffer { uvec4 rows[]; };
-layout(std430, binding = OWN + 5) restrict buffer OrderBuffer { uvec4 fine_order[]; };
+layout(binding = OWN + 1, rgba32f) uniform restrict imageBuffer ray_data;
+layout(binding = OWN + 2, rgba32f) uniform restrict imageBuffer light;
+layout(binding = OWN + 3, rgba32f) uniform restrict imageBuffer moments;
+layout(binding = OWN + 4, rgba32ui) uniform restrict uimageBuffer rows;
+layout(binding = OWN + 5, rgba32ui) uniform restrict uimageBuffer fine_order;
 
 layout(push_constant) uniform Push {
   MomentGrid grid;

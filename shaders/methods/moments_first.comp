@@ -85,7 +85,7 @@ void add_sunlit_ground(int i, int j, Path path, INOUT_ARRAY(Vec4, parts, PARTS))
   columns_to_top(0.0, mu_sun, column);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     parts[GROUND_PART + g] =
-        ray_data[ground_at(i, j) + g] * transmittance_of(column, g) * (mu_sun * sun.irradiance);
+        READ(ray_data, ground_at(i, j) + g) * transmittance_of(column, g) * (mu_sun * sun.irradiance);
   }
 }
 
@@ -206,10 +206,10 @@ void add_azimuths(int i, int j, TableRay ray, Vec3 axis, INOUT_ARRAY(Vec4, terms
 
 // Light of order one, and of the sunlit ground, that comes down the rays: one invocation a ray and a sun.
 void main() {
-  int index = push.first + int(gl_GlobalInvocationID.x);
-  if (index >= push.end) return;
   load_scene();
   load_media();
+  int index = push.first + int(gl_GlobalInvocationID.x);
+  if (index >= push.end) return;
   UNROLL for (int c = 0; c < MEDIA; ++c) view_share[c] = share_of_extinction(c);
   int s = index % push.grid.suns;
   int j = index / push.grid.suns % RAYS;
@@ -223,8 +223,8 @@ void main() {
   Vec4 terms[LIGHT_SIZE];
   int at = light_at(i, j, s);
   UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) {
-    terms[n] = push.first_azimuth > 0 ? light[at + n] : Vec4(0.0);
+    terms[n] = push.first_azimuth > 0 ? READ(light, at + n) : Vec4(0.0);
   }
   add_azimuths(i, j, ray, axis, terms);
-  UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) light[at + n] = terms[n];
+  UNROLL for (int n = 0; n < LIGHT_SIZE; ++n) WRITE(light, at + n, terms[n]);
 }

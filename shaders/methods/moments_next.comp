@@ -31,11 +31,11 @@ void sent(int row, Real at, OUT_ARRAY(Vec4, term, SERIES)) {
   UNROLL for (int tap = 0; tap < 4; ++tap) {
     int own = row + (taps.first + tap) * ROW_SLOTS * GROUPS;
     UNROLL for (int m = 0; m <= DEGREE; m += 2) {
-      uvec4 pair = rows[own + m / 2 * GROUPS];
+      uvec4 pair = READ(rows, own + m / 2 * GROUPS);
       term[m] = term[m] + first_of(pair) * taps.weights[tap];
       if (m < DEGREE) term[min(m + 1, DEGREE)] = term[min(m + 1, DEGREE)] + second_of(pair) * taps.weights[tap];
     }
-    logarithm[tap] = uintBitsToFloat(rows[own + (ROW_SLOTS - 1) * GROUPS]);
+    logarithm[tap] = uintBitsToFloat(READ(rows, own + (ROW_SLOTS - 1) * GROUPS));
   }
   Vec4 light = exp(limited_sum(logarithm, taps));
   UNROLL for (int m = 0; m <= DEGREE; ++m) term[m] = term[m] * light;
@@ -94,14 +94,14 @@ Vec4 irradiance_of(Beam beam, Real x, int g) {
   CubicTaps taps = cubic_taps(node_of_sun(push.grid, sun_range(push.grid, 0.0), axis), push.grid.suns);
   int own = irradiance_at(push.grid.altitudes, taps.first) + g;
   Vec4 logarithm[4];
-  UNROLL for (int tap = 0; tap < 4; ++tap) logarithm[tap] = moments[own + tap * GROUPS];
+  UNROLL for (int tap = 0; tap < 4; ++tap) logarithm[tap] = READ(moments, own + tap * GROUPS);
   return exp(limited_sum(logarithm, taps));
 }
 
 void main() {
+  load_scene();
   int index = push.first + int(gl_GlobalInvocationID.x);
   if (index >= push.end) return;
-  load_scene();
   int g = index % GROUPS;
   int s = index / GROUPS % push.grid.suns;
   int j = index / GROUPS / push.grid.suns % RAYS;
@@ -116,14 +116,14 @@ void main() {
   UNROLL for (int a = 0; a < AZIMUTHS; ++a) radiance[a] = Vec4(0.0);
   for (int k = 0; k < push.steps; ++k) {
     int node = node_at(i, j, k);
-    Vec4 place = ray_data[node];
-    Vec4 suns = ray_data[node + 1];
+    Vec4 place = READ(ray_data, node);
+    Vec4 suns = READ(ray_data, node + 1);
     Real spacings = abs(node_of_axis(axis_at(beam, 1.0, place), suns) -
                      node_of_axis(axis_at(beam, -1.0, place), suns));
     add_from_few(beam, place, suns, row_at(i, j, k, 0) + g, azimuth_rule(spacings), radiance);
   }
 
-  Vec4 reflected = ray_data[ground_at(i, j) + g];
+  Vec4 reflected = READ(ray_data, ground_at(i, j) + g);
   Vec4 terms[LIGHT_SLOTS];
   UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) terms[n] = Vec4(0.0);
   UNROLL for (int a = 0; a < AZIMUTHS; ++a) add_azimuth(beam, cos(table_azimuth(a)), radiance[a], terms);
@@ -132,5 +132,5 @@ void main() {
     add_azimuth(beam, x, reflected * irradiance_of(beam, x, g), terms);
   }
   int at = light_at(i, j, s) + g;
-  UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) light[at + n * GROUPS] = terms[n];
+  UNROLL for (int n = 0; n < LIGHT_SLOTS; ++n) WRITE(light, at + n * GROUPS, terms[n]);
 }

@@ -9,7 +9,7 @@ CubicTaps taps;
 
 Vec4 slot_at(int s, int n, int g) {
   Vec4 value[4];
-  UNROLL for (int tap = 0; tap < 4; ++tap) value[tap] = moments[moment_at(taps.first + tap, s, n) + g];
+  UNROLL for (int tap = 0; tap < 4; ++tap) value[tap] = READ(moments, moment_at(taps.first + tap, s, n) + g);
   return limited_sum(value, taps);
 }
 
@@ -28,8 +28,8 @@ void main() {
   int f = index / GROUPS / ORDER_SLOTS / push.grid.suns;
   taps = cubic_taps(Real(f * (push.grid.altitudes - 1)) / Real(push.fine_altitudes - 1), push.grid.altitudes);
   if (slot == 0) {
-    fine_order[index] = floatBitsToUint(slot_at(s, 0, g));
+    WRITE(fine_order, index, floatBitsToUint(slot_at(s, 0, g)));
   } else {
-    fine_order[index] = pack_pair(half_ratio(s, 2 * slot - 1, g), half_ratio(s, min(2 * slot, AUREOLE - 1), g));
+    WRITE(fine_order, index, pack_pair(half_ratio(s, 2 * slot - 1, g), half_ratio(s, min(2 * slot, AUREOLE - 1), g)));
   }
 }

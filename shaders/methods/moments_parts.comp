@@ -5,14 +5,14 @@
 
 // From one stop of the sky's rays to the next: one invocation a direction and a group. Kept are the light so
 // far, and of its ratio the logarithm and over that what the aureole's function multiplies.
-layout(std430, binding = OWN + 3) restrict buffer LightBuffer { Vec4 light[]; };
+layout(binding = OWN + 3, rgba32f) uniform restrict imageBuffer light;
 layout(std430, binding = OWN + 4) restrict writeonly buffer PartBuffer { Vec4 parts[]; };
 
 void main() {
-  int index = push.first + int(gl_GlobalInvocationID.x);
-  if (index >= push.end) return;
   load_scene();
   load_media();
+  int index = push.first + int(gl_GlobalInvocationID.x);
+  if (index >= push.end) return;
   int g = index % GROUPS;
   int a = index / GROUPS % push.azimuths;
   int e = index / GROUPS / push.azimuths;
@@ -21,8 +21,8 @@ void main() {
   Stops stops = stops_of(ray.altitude_km, ray.mu, ray.length_km);
   Real from_km = push.stop > 0 ? stop_km(stops, push.stop - 1, PART_STOPS) : 0.0;
   Real to_km = stop_km(stops, push.stop, PART_STOPS);
-  Vec4 smooth_light = push.stop > 0 ? light[2 * index] : Vec4(0.0);
-  Vec4 aureole_light = push.stop > 0 ? light[2 * index + 1] : Vec4(0.0);
+  Vec4 smooth_light = push.stop > 0 ? READ(light, 2 * index) : Vec4(0.0);
+  Vec4 aureole_light = push.stop > 0 ? READ(light, 2 * index + 1) : Vec4(0.0);
   ROLLED for (int k = 0; k < 3; ++k) {
     SkyNode node;
     node.t_km = from_km + (to_km - from_km) * gauss3_node(k);
@@ -33,8 +33,8 @@ void main() {
     smooth_light = smooth_light + smooth_light_of(sender, azimuth_at(ray, node, x));
     aureole_light = aureole_light + aureole_of(sender);
   }
-  light[2 * index] = smooth_light;
-  light[2 * index + 1] = aureole_light;
+  WRITE(light, 2 * index, smooth_light);
+  WRITE(light, 2 * index + 1, aureole_light);
   Real column[MEDIA_SIZE];
   columns_along(ray.altitude_km, ray.mu, to_km, column);
   int at = (((e * push.azimuths + a) * PART_STOPS + push.stop) * 2) * GROUPS + g;

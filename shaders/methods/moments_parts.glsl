@@ -13,8 +13,8 @@ Vec4 part_scattered(ARRAY(Real, column, MEDIA_SIZE), int g) {
   Vec4 scattered = Vec4(0.0);
   Vec4 depth = Vec4(0.0);
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    scattered = scattered + spectra[(3 + 3 * c) * GROUPS + g] * column[c];
-    depth = depth + spectra[(2 + 3 * c) * GROUPS + g] * (share_of_extinction(c) * column[c]);
+    scattered = scattered + READ(spectra, (3 + 3 * c) * GROUPS + g) * column[c];
+    depth = depth + READ(spectra, (2 + 3 * c) * GROUPS + g) * (share_of_extinction(c) * column[c]);
   }
   return scattered * mean_transmittances(depth);
 }

@@ -7,13 +7,13 @@ const int TERMS = 2 * DEGREE + 3;                      // of a particle's phase 
 const int SLOTS = (DEGREE + 1) * (DEGREE + 2) / 2 + 1; // the last one is the aureole's
 const int AUREOLE = SLOTS - 1;
 
-layout(std430, binding = OWN) restrict readonly buffer PhaseSeriesBuffer { Vec4 phase_series[]; };
+layout(binding = OWN, rgba32f) uniform restrict readonly imageBuffer phase_series;
 // (2 l + 1) / (4 pi) chi_l of each constituent's phase, l below TERMS, damped beyond L.
-#define series(c, l, group) phase_series[((c) * TERMS + (l)) * GROUPS + (group)]
+#define series(c, l, group) READ(phase_series, ((c) * TERMS + (l)) * GROUPS + (group))
 // What of a moment of degree l up to L a constituent scatters on.
-#define scattered_share(c, l, group) phase_series[(MEDIA * TERMS + (c) * SERIES + (l)) * GROUPS + (group)]
+#define scattered_share(c, l, group) READ(phase_series, (MEDIA * TERMS + (c) * SERIES + (l)) * GROUPS + (group))
 // Of a constituent's extinction, less its forward peak.
-#define share_of_extinction(c) phase_series[MEDIA * (TERMS + SERIES) * GROUPS + (c)].x
+#define share_of_extinction(c) READ(phase_series, MEDIA * (TERMS + SERIES) * GROUPS + (c)).x
 // The aureole's function of angle.
 #define aureole(node, group) \
-  phase_series[MEDIA * ((TERMS + SERIES) * GROUPS + 1) + (node) * GROUPS + (group)]
+  READ(phase_series, MEDIA * ((TERMS + SERIES) * GROUPS + 1) + (node) * GROUPS + (group))

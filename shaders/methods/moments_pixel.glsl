@@ -31,8 +31,8 @@ SkyPlace sky_place(Vec3 direction, bool down, Vec3 axis) {
 Vec4 sky_value(SkyPlace place, int offset) {
   int at = place.at + offset;
   int up = push.azimuths * SKY_VALUES;
-  return mix(mix(sky[at], sky[at + SKY_VALUES], place.azimuth),
-             mix(sky[at + up], sky[at + up + SKY_VALUES], place.azimuth), place.elevation);
+  return mix(mix(READ(sky, at), READ(sky, at + SKY_VALUES), place.azimuth),
+             mix(READ(sky, at + up), READ(sky, at + up + SKY_VALUES), place.azimuth), place.elevation);
 }
 
 // What the ground makes of the diffuse light of all orders.
@@ -44,7 +44,7 @@ void add_sky_on_ground(Path path, INOUT_ARRAY(Vec4, ground, GROUPS_SIZE)) {
   int s = min(int(node), push.fine_suns - 2);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     int at = push.irradiance + s * GROUPS + g;
-    Vec4 irradiance = light_of_logarithm(mix(moments[at], moments[at + GROUPS], node - Real(s)));
+    Vec4 irradiance = light_of_logarithm(mix(READ(moments, at), READ(moments, at + GROUPS), node - Real(s)));
     ground[g] = ground[g] + left_by_ground(irradiance, g);
   }
 }

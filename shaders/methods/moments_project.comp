@@ -6,29 +6,29 @@
 // done with each is long when unrolled.
 void keep(int i, int s, int g, Vec4 moment[SLOTS]) {
   int at = moment_at(i, s, 0) + g;
-  UNROLL for (int n = 0; n < SLOTS; ++n) moments[at + n * GROUPS] = moment[n];
+  UNROLL for (int n = 0; n < SLOTS; ++n) WRITE(moments, at + n * GROUPS, moment[n]);
   Vec4 lowest = moment[0];
   ROLLED for (int n = 0; n < SLOTS; ++n) {
     int own = at + n * GROUPS;
     int sum = sum_table() + own;
-    Vec4 value = moments[own];
-    moments[sum] = moments[sum] + value;
-    moments[own] = n == 0 ? moment_logarithm(lowest) : moment_ratio(value, lowest);
+    Vec4 value = READ(moments, own);
+    WRITE(moments, sum, READ(moments, sum) + value);
+    WRITE(moments, own, n == 0 ? moment_logarithm(lowest) : moment_ratio(value, lowest));
   }
 }
 
 void keep_irradiance(int s, int g, Vec4 irradiance) {
   int at = irradiance_at(push.grid.altitudes, s) + g;
-  moments[sum_table() + at] = moments[sum_table() + at] + irradiance;
-  moments[at] = moment_logarithm(irradiance);
+  WRITE(moments, sum_table() + at, READ(moments, sum_table() + at) + irradiance);
+  WRITE(moments, at, moment_logarithm(irradiance));
 }
 
 // The moments of the light that the rays bring, of one order: one invocation an altitude, a sun and a
 // group of wavelengths.
 void main() {
+  load_scene();
   int index = push.first + int(gl_GlobalInvocationID.x);
   if (index >= push.end) return;
-  load_scene();
   int g = index % GROUPS;
   int s = index / GROUPS % push.grid.suns;
   int i = index / GROUPS / push.grid.suns;
@@ -44,14 +44,14 @@ void main() {
     zenith_polynomials(ray.mu, DEGREE, p);
     int at = light_at(i, j, s) + g;
     UNROLL for (int m = 0; m <= DEGREE; ++m) {
-      Vec4 term = light[at + m * GROUPS] * weight;
+      Vec4 term = READ(light, at + m * GROUPS) * weight;
       if (m == 0 && !ray.down) irradiance = irradiance + term * ray.mu;
       UNROLL for (int l = 0; l <= DEGREE; ++l) {
         if (l < m) continue;
         moment[moment_index(l, m)] = moment[moment_index(l, m)] + term * p[moment_index(l, m)];
       }
     }
-    moment[AUREOLE] = moment[AUREOLE] + light[at + (DEGREE + 1) * GROUPS] * weight;
+    moment[AUREOLE] = moment[AUREOLE] + READ(light, at + (DEGREE + 1) * GROUPS) * weight;
   }
   // Under a high sun what is divided is rounding, once sin^m falls below a float's digits: nothing is left of
   // it by adding to its square.

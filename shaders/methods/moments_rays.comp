@@ -19,8 +19,8 @@ void write_node(int i, int j, int k, TableRay ray, Cuts cuts) {
   int at = node_at(i, j, k);
   SunRange range = sun_range(push.grid, h);
   Real fine = node_of_altitude(push.grid, h) / Real(push.grid.altitudes - 1) * Real(push.fine_altitudes - 1);
-  ray_data[at] = Vec4(h, mu, node.t_km, fine);
-  ray_data[at + 1] = Vec4(range.centre, range.low, Real(push.grid.suns - 1) / (range.high - range.low), 0.0);
+  WRITE(ray_data, at, Vec4(h, mu, node.t_km, fine));
+  WRITE(ray_data, at + 1, Vec4(range.centre, range.low, Real(push.grid.suns - 1) / (range.high - range.low), 0.0));
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 seen = transmittance_of(column, g) * node.width_km;
     UNROLL for (int c = 0; c < MEDIA; ++c) {
@@ -31,16 +31,16 @@ void write_node(int i, int j, int k, TableRay ray, Cuts cuts) {
       UNROLL for (int c = 0; c < MEDIA; ++c) {
         scattered = scattered + scattering(c, g) * density[c] * scattered_share(c, l, g);
       }
-      ray_data[at + 2 + l * GROUPS + g] = scattered * seen;
+      WRITE(ray_data, at + 2 + l * GROUPS + g, scattered * seen);
     }
   }
 }
 
 void main() {
-  int index = push.first + int(gl_GlobalInvocationID.x);
-  if (index >= push.end) return;
   load_scene();
   load_media();
+  int index = push.first + int(gl_GlobalInvocationID.x);
+  if (index >= push.end) return;
   int j = index % RAYS;
   int i = index / RAYS;
   TableRay ray = table_ray(i, j);
@@ -52,14 +52,14 @@ void main() {
   columns_along(ray.altitude_km, ray.mu, ray.length_km, column);
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] *= share_of_extinction(c);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    ray_data[ground_at(i, j) + g] = ray.down ? lambertian(g) * transmittance_of(column, g) : Vec4(0.0);
+    WRITE(ray_data, ground_at(i, j) + g, ray.down ? lambertian(g) * transmittance_of(column, g) : Vec4(0.0));
     balance[g] = balance_of(balance[g], depth_of(column, g));
   }
   for (int k = 0; k < push.steps; ++k) {
     int at = node_at(i, j, k) + 2;
     ROLLED for (int l = 0; l <= DEGREE; ++l) {
       UNROLL for (int g = 0; g < GROUPS; ++g) {
-        ray_data[at + l * GROUPS + g] = ray_data[at + l * GROUPS + g] * balance[g];
+        WRITE(ray_data, at + l * GROUPS + g, READ(ray_data, at + l * GROUPS + g) * balance[g]);
       }
     }
   }

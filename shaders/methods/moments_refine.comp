@@ -5,7 +5,7 @@
 
 // A table with more nodes along one of its axes, by cubic interpolation, so that its readers can do with
 // linear: [outer][nodes][inner] becomes [outer][fine][inner].
-layout(std430, binding = OWN) readonly buffer CoarseBuffer { Vec4 coarse[]; };
+layout(binding = OWN, rgba32f) uniform readonly imageBuffer coarse;
 layout(std430, binding = OWN + 1) writeonly buffer FineBuffer { Vec4 refined[]; };
 
 layout(push_constant) uniform Push {
@@ -38,7 +38,7 @@ void main() {
   Vec4 value[4];
   UNROLL for (int tap = 0; tap < 4; ++tap) {
     int n = mirrored_node(taps.first + tap);
-    value[tap] = coarse[push.from + (outer * push.nodes + n) * push.inner + inner];
+    value[tap] = READ(coarse, push.from + (outer * push.nodes + n) * push.inner + inner);
   }
   refined[push.to + index] = limited_sum(value, taps);
 }

@@ -11,15 +11,15 @@ void gather(int sent, int points, Real x, OUT_ARRAY(Vec4, term, SENT)) {
   UNROLL for (int n = 0; n < SENT; ++n) term[n] = Vec4(0.0);
   for (int p = 0; p < points; ++p) {
     Real weight = chebyshev_weight(azimuth_point(p, points), points, x);
-    UNROLL for (int n = 0; n < SENT; ++n) term[n] = term[n] + ray_data[sent + (p * SENT + n) * GROUPS] * weight;
+    UNROLL for (int n = 0; n < SENT; ++n) term[n] = term[n] + READ(ray_data, sent + (p * SENT + n) * GROUPS) * weight;
   }
 }
 
 void main() {
-  int index = push.first + int(gl_GlobalInvocationID.x);
-  if (index >= push.end) return;
   load_scene();
   if (EACH_AZIMUTH) load_media();
+  int index = push.first + int(gl_GlobalInvocationID.x);
+  if (index >= push.end) return;
   int g = index % GROUPS;
   int a = index / GROUPS % push.azimuths;
   int e = index / GROUPS / push.azimuths;
@@ -34,7 +34,7 @@ void main() {
       smooth_light = smooth_light + smooth_light_of(sender, azimuth_at(ray, node, x));
       aureole_light = aureole_light + aureole_of(sender);
     } else {
-      Vec4 place = ray_data[place_at(e, k)];
+      Vec4 place = READ(ray_data, place_at(e, k));
       SkyNode node;
       node.altitude_km = place.x;
       node.mu = place.y;

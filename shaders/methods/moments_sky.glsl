@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
 
 // For each elevation and node its (altitude, zenith cosine, distance, points); then for each point the terms
 // of what is sent from there, and what the aureole's function multiplies.
-layout(std430, binding = OWN + 2) restrict buffer RayBuffer { Vec4 ray_data[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict imageBuffer ray_data;
 
 int place_at(int e, int k) { return e * push.steps + k; }
 int sent_at(int e, int k, int point) {
@@ -87,14 +87,14 @@ AzimuthRecurrence azimuth_at(SkyRay ray, SkyNode node, Real x) {
 
 Vec4 dimmed(ARRAY(Real, column, MEDIA_SIZE), int g) {
   Vec4 depth = Vec4(0.0);
-  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + spectra[(2 + 3 * c) * GROUPS + g] * column[c];
+  UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + READ(spectra, (2 + 3 * c) * GROUPS + g) * column[c];
   return exp(-depth);
 }
 
 // A value between four nodes of the table.
 Vec4 between(int at, int to_sun, int to_altitude, Vec2 x) {
-  return mix(mix(moments[at], moments[at + to_sun], x.x),
-             mix(moments[at + to_altitude], moments[at + to_altitude + to_sun], x.x), x.y);
+  return mix(mix(READ(moments, at), READ(moments, at + to_sun), x.x),
+             mix(READ(moments, at + to_altitude), READ(moments, at + to_altitude + to_sun), x.x), x.y);
 }
 
 // What a node scatters of moments by their degree.
@@ -136,7 +136,7 @@ Sender sender_at(SkyRay ray, SkyNode node, Real x, int g) {
   Vec4 coefficient[MEDIA_SIZE];
   sender.peaked = Vec4(0.0);
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    coefficient[c] = spectra[(3 + 3 * c) * GROUPS + g] * density[c];
+    coefficient[c] = READ(spectra, (3 + 3 * c) * GROUPS + g) * density[c];
     if (medium(c).phase > PHASE_RAYLEIGH) sender.peaked = sender.peaked + coefficient[c];
   }
   ROLLED for (int l = 0; l <= DEGREE; ++l) {

@@ -9,7 +9,7 @@ int lowest_at(int i, int s) {
 // What chunk n, from 0 on, added to a value of the table.
 Vec4 chunk(int n, int at) {
   int after = n + 1 < push.chunks ? earlier_table(n + 1) : sum_table();
-  return moments[after + at] - moments[earlier_table(n) + at];
+  return READ(moments, after + at) - READ(moments, earlier_table(n) + at);
 }
 
 // Behind the tables: the vectors that are made orthogonal, the first of which in the end holds all later orders over
@@ -22,6 +22,6 @@ int weight_at(int n, int s) { return vector_at(MOST_CHUNKS, 0, s) + n * push.gri
 // All later orders of a lowest moment or an irradiance.
 Vec4 later_orders(int s, int at, int g) {
   Vec4 sum = Vec4(0.0);
-  for (int n = 1; n < push.chunks; ++n) sum = sum + chunk(n, at) * moments[weight_at(n, s) + g];
+  for (int n = 1; n < push.chunks; ++n) sum = sum + chunk(n, at) * READ(moments, weight_at(n, s) + g);
   return max(sum, Vec4(0.0));
 }

@@ -4,4 +4,4 @@
 #include "methods/moments.glsl"
 
 // All orders together, [altitude][sun][moment][group], then the irradiance of the ground by sun.
-layout(std430, binding = OWN + 1) restrict readonly buffer MomentBuffer { Vec4 moments[]; };
+layout(binding = OWN + 1, rgba32f) uniform restrict readonly imageBuffer moments;

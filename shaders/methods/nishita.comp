@@ -1,11 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define ANY_PROJECTION
 #include "device.glsl"
 #include "methods/nishita.glsl"
 
-layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = OWN, rgba32f) uniform restrict imageBuffer tile;
 // Columns to the camera and to the sun of every constituent, between two dispatches.
-layout(std430, binding = OWN + 1) restrict buffer ColumnBuffer { Real columns[]; };
+layout(binding = OWN + 1, r32f) uniform restrict imageBuffer columns;
 
 layout(push_constant) uniform Push {
   int first_ray;      // of the tile, in the frame
@@ -16,11 +17,11 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_media();
   int i = int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= n) return;
-  load_scene();
-  load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
 
@@ -33,11 +34,11 @@ void main() {
   bool no_columns = fresh && !ground;
   int quantity = ground ? GROUND : INSCATTER;
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    view_column[c] = no_columns ? 0.0 : columns[c * n + i];
-    light_column[c] = no_columns ? 0.0 : columns[(MEDIA + c) * n + i];
+    view_column[c] = no_columns ? 0.0 : READ_REAL(columns, c * n + i);
+    light_column[c] = no_columns ? 0.0 : READ_REAL(columns, (MEDIA + c) * n + i);
   }
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    radiance[g] = fresh ? Vec4(0.0) : tile[(quantity * GROUPS + g) * n + i];
+    radiance[g] = fresh ? Vec4(0.0) : READ(tile, (quantity * GROUPS + g) * n + i);
   }
   if (ground) {
     if (scene.surface == 0) {
@@ -54,12 +55,12 @@ void main() {
     Vec4 transmittance = transmittance_of(view_column, g);
     if (done) {
       radiance[g] = radiance[g] * transmittance;
-      tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance;
+      WRITE(tile, (TRANSMITTANCE * GROUPS + g) * n + i, transmittance);
     }
-    tile[(quantity * GROUPS + g) * n + i] = radiance[g];
+    WRITE(tile, (quantity * GROUPS + g) * n + i, radiance[g]);
   }
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    columns[c * n + i] = view_column[c];
-    columns[(MEDIA + c) * n + i] = light_column[c];
+    WRITE_REAL(columns, c * n + i, view_column[c]);
+    WRITE_REAL(columns, (MEDIA + c) * n + i, light_column[c]);
   }
 }

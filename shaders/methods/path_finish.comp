@@ -3,10 +3,10 @@
 #include "device.glsl"
 
 // Adds the mean of all walks to the first order, and finds the standard error of their sum.
-layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
-layout(std430, binding = OWN + 1) restrict readonly buffer SumBuffer { Vec4 sums[]; };
+layout(binding = OWN, rgba32f) uniform restrict imageBuffer tile;
+layout(binding = OWN + 1, rgba32f) uniform restrict readonly imageBuffer sums;
 // Inscatter and ground of the first order by half as many nodes.
-layout(std430, binding = OWN + 2) restrict readonly buffer CoarseBuffer { Vec4 coarse[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict readonly imageBuffer coarse;
 
 layout(push_constant) uniform Push {
   int first_ray;      // of the tile, in the frame
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
 Vec4 slice_sum(int i, int slice, int g) {
   int lane = i * push.slices + slice;
   int lanes = push.rays_in_tile * push.slices;
-  return sums[g * lanes + lane] + sums[(GROUPS + g) * lanes + lane];
+  return READ(sums, g * lanes + lane) + READ(sums, (GROUPS + g) * lanes + lane);
 }
 
 // Squared standard error of the mean of all walks, from the slices, whose sums are independent. A few
@@ -54,20 +54,20 @@ void main() {
     int inscatter_at = (INSCATTER * GROUPS + g) * n + i;
     int ground_at = (GROUND * GROUPS + g) * n + i;
     // Gauss rules gain digits with every node: a tenth of what half of them miss is a bound.
-    Vec4 quadrature = 0.1 * abs(tile[inscatter_at] + tile[ground_at] - coarse[inscatter_at] -
-                                coarse[ground_at]);
+    Vec4 quadrature = 0.1 * abs(READ(tile, inscatter_at) + READ(tile, ground_at) - READ(coarse, inscatter_at) -
+                                READ(coarse, ground_at));
     Vec4 variance = quadrature * quadrature;
     if (push.walks_of_ray > 0) {
       Vec4 sky = Vec4(0.0);
       Vec4 ground = Vec4(0.0);
       for (int s = 0; s < push.slices; ++s) {
-        sky += sums[g * lanes + i * push.slices + s];
-        ground += sums[(GROUPS + g) * lanes + i * push.slices + s];
+        sky += READ(sums, g * lanes + i * push.slices + s);
+        ground += READ(sums, (GROUPS + g) * lanes + i * push.slices + s);
       }
       variance += variance_of_mean(i, g, (sky + ground) / walks);
-      tile[inscatter_at] += sky / walks;
-      tile[ground_at] += ground / walks;
+      WRITE(tile, inscatter_at, READ(tile, inscatter_at) + sky / walks);
+      WRITE(tile, ground_at, READ(tile, ground_at) + ground / walks);
     }
-    tile[(STANDARD_ERROR * GROUPS + g) * n + i] = sqrt(variance);
+    WRITE(tile, (STANDARD_ERROR * GROUPS + g) * n + i, sqrt(variance));
   }
 }

@@ -26,7 +26,8 @@ PixelRay pixel_ray(int pixel) {
   PixelRay ray;
   ray.inside = true;
   if (PROJECTION == PROJECTION_LIST) {
-    ray.direction = Vec3(directions[pixel].x, directions[pixel].y, directions[pixel].z);
+    Vec4 direction = READ(directions, pixel);
+    ray.direction = Vec3(direction.x, direction.y, direction.z);
     return ray;
   }
   int column = pixel % scene.width;
@@ -81,7 +82,7 @@ CONSTANT Real ENDLESS = Real(1e30);
 bool ends_on_ground(Path path) { return path.meets_ground || (path.cut && scene.surface != 0); }
 
 // Where a ray of the frame ends, km from the camera.
-Real end_of_ray(int ray) { return ends_km[min(ray, scene.ends - 1)]; }
+Real end_of_ray(int ray) { return READ_REAL(ends_km, min(ray, scene.ends - 1)); }
 
 // The part of a ray of the frame that lies in the air before its end; none outside a fisheye's circle. What
 // stands at the end hides the ground.

@@ -98,9 +98,9 @@ Real table_column(Real h, Real mu, Real length_km, int c) {
   MediumData m = medium(c);
   Real column = 0.0;
   Real from_km = 0.0;
-  Vec4 node = profile_nodes[m.profile_node];
+  Vec4 node = READ(profile_nodes, m.profile_node);
   for (int i = 1; i <= m.profile_nodes && from_km < length_km; ++i) {
-    Vec4 next = profile_nodes[m.profile_node + min(i, m.profile_nodes - 1)];
+    Vec4 next = READ(profile_nodes, m.profile_node + min(i, m.profile_nodes - 1));
     Real to_km =
         i < m.profile_nodes ? distance_up_to(next.x, h, mu, length_km) : length_km;
     if (to_km > from_km) {

@@ -30,7 +30,8 @@ struct SceneData {
   int surface;          // what the ground is (surface/data.glsl); 0 is the same everywhere
 
   int layers;           // 1 where one may hide what lies behind it, as clouds do (raymarch.glsl)
-  int idle[3];
+  int projection;       // PROJECTION_*
+  int idle[2];
 };
 
 // One constituent; `a` and `b` by type of profile (profile.glsl), `g` by type of phase (phase.glsl).

@@ -71,21 +71,22 @@ PhasePosition phase_position(MediumData m, ScatteringAngle angle) {
   int high = m.phase_node + m.phase_nodes - 1;  // the node wanted is in [low, high)
   while (high - low > 1) {
     int middle = (low + high) / 2;
-    if (phase_angles[middle] <= theta) {
+    if (READ_REAL(phase_angles, middle) <= theta) {
       low = middle;
     } else {
       high = middle;
     }
   }
   position.node = low;
-  position.fraction =
-      clamp((theta - phase_angles[low]) / (phase_angles[low + 1] - phase_angles[low]), 0.0, 1.0);
+  Real before = READ_REAL(phase_angles, low);
+  Real after = READ_REAL(phase_angles, low + 1);
+  position.fraction = clamp((theta - before) / (after - before), 0.0, 1.0);
   return position;
 }
 
 Vec4 tabulated_phase(PhasePosition position, int group) {
-  Vec4 low = phase_values[position.node * GROUPS + group];
-  Vec4 high = phase_values[(position.node + 1) * GROUPS + group];
+  Vec4 low = READ(phase_values, position.node * GROUPS + group);
+  Vec4 high = READ(phase_values, (position.node + 1) * GROUPS + group);
   Real x = position.fraction;
   return Vec4(log_linear(low.x, high.x, x), log_linear(low.y, high.y, x),
               log_linear(low.z, high.z, x), log_linear(low.w, high.w, x));

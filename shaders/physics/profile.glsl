@@ -14,13 +14,13 @@ Real tabulated_density(Real h, int first, int count) {
   int high = first + count;  // the node wanted is in [low, high)
   while (high - low > 1) {
     int middle = (low + high) / 2;
-    if (profile_nodes[middle].x <= h) {
+    if (READ(profile_nodes, middle).x <= h) {
       low = middle;
     } else {
       high = middle;
     }
   }
-  Vec4 node = profile_nodes[low];
+  Vec4 node = READ(profile_nodes, low);
   Real x = h - node.x;
   return (node.y + node.z * x) * exp(node.w * x);
 }

@@ -53,7 +53,10 @@ Real gauss8_weight(int i) {
 CONSTANT int MOST_GAUSS_NODES = 32;
 CONSTANT int GAUSS_RULES_SIZE = MOST_GAUSS_NODES * (MOST_GAUSS_NODES + 1) / 2;
 
-Vec2 gauss_node(int nodes, int i) { return quadrature[nodes * (nodes - 1) / 2 + i]; }
+Vec2 gauss_node(int nodes, int i) {
+  Vec4 node = READ(quadrature, nodes * (nodes - 1) / 2 + i);
+  return Vec2(node.x, node.y);
+}
 
 // An altitude at which the density of a constituent jumps or bends, km.
-Real kink_km(int i) { return quadrature[GAUSS_RULES_SIZE + i].x; }
+Real kink_km(int i) { return READ(quadrature, GAUSS_RULES_SIZE + i).x; }

@@ -26,17 +26,17 @@ CONSTANT int OCTAVES = 18;
 CONSTANT int SURFACE_LATTICE = SURFACE_SEA + SEA_NODES / 4;
 CONSTANT int SURFACE_SPECTRA = SURFACE_LATTICE + 2 * OCTAVES;
 
-Real surface_relief_km() { return surface_values[0].x; }  // no height is above it
-Real sea_level() { return surface_values[0].y; }          // of continents, as terrain.glsl has them
-Real terrain_gain() { return surface_values[0].z; }       // of an octave over the one before
-Real sea_slope_variance() { return surface_values[0].w; }
-Real ice_latitude_deg() { return surface_values[1].x; }
-Real vegetation() { return surface_values[1].y; }
-Uint surface_seed() { return Uint(surface_values[1].z); }
-Real mean_sea_reflectance() { return surface_values[1].w; }  // under an even sky
+Real surface_relief_km() { return READ(surface_values, 0).x; }  // no height is above it
+Real sea_level() { return READ(surface_values, 0).y; }          // of continents, as terrain.glsl has them
+Real terrain_gain() { return READ(surface_values, 0).z; }       // of an octave over the one before
+Real sea_slope_variance() { return READ(surface_values, 0).w; }
+Real ice_latitude_deg() { return READ(surface_values, 1).x; }
+Real vegetation() { return READ(surface_values, 1).y; }
+Uint surface_seed() { return Uint(READ(surface_values, 1).z); }
+Real mean_sea_reflectance() { return READ(surface_values, 1).w; }  // under an even sky
 
 Vec4 matter_albedo(int matter, int group) {
-  return surface_values[SURFACE_SPECTRA + matter * GROUPS + group];
+  return READ(surface_values, SURFACE_SPECTRA + matter * GROUPS + group);
 }
 
 // From the camera's foot point to a place, both directions from the planet's centre in the foot point's frame. As
@@ -49,16 +49,16 @@ Vec3 aside_of_foot(Vec3 place) {
 
 // The foot point, in the planet's frame.
 Vec3 foot_direction() {
-  Vec4 up = surface_values[6];
+  Vec4 up = READ(surface_values, 6);
   return Vec3(up.x, up.y, up.z);
 }
 
 // A direction from the planet's centre, in the frame of the camera's foot point, in that of the planet: z to
 // the north pole, x to latitude and longitude 0.
 Vec3 planet_direction(Vec3 local) {
-  Vec4 east = surface_values[4];
-  Vec4 north = surface_values[5];
-  Vec4 up = surface_values[6];
+  Vec4 east = READ(surface_values, 4);
+  Vec4 north = READ(surface_values, 5);
+  Vec4 up = READ(surface_values, 6);
   return Vec3(east.x, east.y, east.z) * local.x + Vec3(north.x, north.y, north.z) * local.y +
          Vec3(up.x, up.y, up.z) * local.z;
 }

@@ -11,7 +11,7 @@ struct MapImage {
 };
 
 MapImage map_image(int value) {
-  Vec4 v = surface_values[value];
+  Vec4 v = READ(surface_values, value);
   MapImage image;
   image.width = int(v.x);
   image.height = int(v.y);

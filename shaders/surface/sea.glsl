@@ -37,8 +37,8 @@ Real sea_reflectance(Real cosine) {
   Real node = sqrt(clamp(cosine, 0.0, 1.0)) * Real(SEA_NODES - 1);
   int low = min(int(node), SEA_NODES - 2);
   int next = low + 1;
-  return mix(surface_values[SURFACE_SEA + low / 4][low % 4],
-             surface_values[SURFACE_SEA + next / 4][next % 4], node - Real(low));
+  return mix(READ(surface_values, SURFACE_SEA + low / 4)[low % 4],
+             READ(surface_values, SURFACE_SEA + next / 4)[next % 4], node - Real(low));
 }
 
 // BRDF of the water below, whose albedo is 1: what the surface let in and lets out again. Together they

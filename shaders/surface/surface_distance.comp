@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define ANY_PROJECTION
 #include "device.glsl"
 layout(constant_id = 10) const int SURFACE_KIND = 0;
 #include "surface/surface.glsl"
@@ -13,9 +14,9 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
   int ray = push.first + int(gl_GlobalInvocationID.x);
   if (ray >= push.end) return;
-  load_scene();
   PixelRay pixel = pixel_ray(ray);
   Path path = path_from_camera(pixel.direction);
   Vec3 camera = Vec3(0.0, 0.0, scene.planet_radius_km + scene.camera_altitude_km);

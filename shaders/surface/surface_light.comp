@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define ANY_PROJECTION
 #include "device.glsl"
 layout(constant_id = 10) const int SURFACE_KIND = 0;
 #include "surface/surface.glsl"
@@ -12,10 +13,10 @@ layout(constant_id = 10) const int SURFACE_KIND = 0;
 // L(a) = L(0) + a G / (1 - a s), so of two of them, over black ground and over ground of the mean albedo,
 // the light over ground of any albedo follows; s, what the air sends back of that light, from the irradiances
 // of both. Which albedo that is a neighbourhood of some heights of the air tells.
-layout(std430, binding = OWN) restrict buffer TileBuffer { Vec4 tile[]; };
-layout(std430, binding = OWN + 1) restrict readonly buffer DistanceBuffer { Real distances_km[]; };
+layout(binding = OWN, rgba32f) uniform restrict imageBuffer tile;
+layout(binding = OWN + 1, r32f) uniform restrict readonly imageBuffer distances_km;
 // The same tile over black ground; idle where no tables are interpolated.
-layout(std430, binding = OWN + 2) restrict readonly buffer BlackBuffer { Vec4 black[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict readonly imageBuffer black;
 
 const int LEFT_ORDER_ONE = 0;  // what the method leaves: nothing but what the sun itself does,
 const int LEFT_WALKS = 1;      // what it has reflected,
@@ -47,14 +48,14 @@ Vec4 share_of_sky(ARRAY(Real, above, MEDIA_SIZE), ARRAY(Real, all, MEDIA_SIZE), 
 }
 
 void main() {
+  load_scene();
+  load_media();
   int i = push.first + int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= push.end) return;
-  load_scene();
-  load_media();
   int ray = push.first_ray + i;
   Path path = path_of_ray(ray, pixel_ray(ray));
-  Real distance_km = distances_km[ray];
+  Real distance_km = READ_REAL(distances_km, ray);
   // What a client's picture shows in front hides the ground.
   bool hidden = distance_km >= ENDLESS || end_of_ray(ray) < distance_km * (1.0 - 1e-6);
 
@@ -72,11 +73,11 @@ void main() {
   }
   if (hidden) {
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      tile[(GROUND * GROUPS + g) * n + i] = Vec4(0.0);
+      WRITE(tile, (GROUND * GROUPS + g) * n + i, Vec4(0.0));
       if (push.left != LEFT_TABLES) continue;
       int at = (INSCATTER * GROUPS + g) * n + i;
       Vec4 of_mean = even_albedo(share, g) / max(ground_albedo(g), Vec4(1e-6));
-      tile[at] = inscatter_over(black[at], tile[at], of_mean);
+      WRITE(tile, at, inscatter_over(READ(black, at), READ(tile, at), of_mean));
     }
     return;
   }
@@ -113,29 +114,29 @@ void main() {
   columns_to_top(0.0, 1.0, all);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     int at = (GROUND * GROUPS + g) * n + i;
-    Vec4 transmittance = tile[(TRANSMITTANCE * GROUPS + g) * n + i];
+    Vec4 transmittance = READ(tile, (TRANSMITTANCE * GROUPS + g) * n + i);
     if (push.left == LEFT_WALKS) {
-      tile[at] = tile[at] + beam[g] * transmittance;
+      WRITE(tile, at, READ(tile, at) + beam[g] * transmittance);
       continue;
     }
-    Vec4 sky = tile[at];
+    Vec4 sky = READ(tile, at);
     Vec4 nearby = even_albedo(around, g);
     if (push.left == LEFT_TABLES) {
       Vec4 mean = max(ground_albedo(g), Vec4(1e-6));
-      Vec4 sent_back = clamp((1.0 - (level[g] + black[at]) / max(level[g] + sky, Vec4(1e-20))) / mean,
+      Vec4 sent_back = clamp((1.0 - (level[g] + READ(black, at)) / max(level[g] + sky, Vec4(1e-20))) / mean,
                              Vec4(0.0), Vec4(0.95));
       Vec4 of_mean = nearby * (1.0 - mean * sent_back) / (mean * (1.0 - nearby * sent_back));
-      sky = inscatter_over(black[at], sky, of_mean);
+      sky = inscatter_over(READ(black, at), sky, of_mean);
       int inscatter = (INSCATTER * GROUPS + g) * n + i;
-      tile[inscatter] = inscatter_over(black[inscatter], tile[inscatter], of_mean);
+      WRITE(tile, inscatter, inscatter_over(READ(black, inscatter), READ(tile, inscatter), of_mean));
     }
     sky = sky * share_of_sky(above, all, g);
     Vec4 below = nearby * (sky + level[g]);
     Vec4 depth = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) depth = depth + scattering(c, g) * all[c];
     Real mirrored = mirrored_cosine(max(dot(place.up, -path.direction), 0.0));
-    tile[at] = (beam[g] + reflected_sky(place, share, -path.direction, sky, below,
+    WRITE(tile, at, (beam[g] + reflected_sky(place, share, -path.direction, sky, below,
                                         brightness_of_sky(depth, mirrored), g)) *
-               transmittance;
+               transmittance);
   }
 }

@@ -47,8 +47,8 @@ Terrain terrain_at(Vec3 aside, Real footprint_km) {
   for (int octave = 0; octave < OCTAVES; ++octave) {
     Real shown = min(terrain.octaves - Real(octave), 1.0);
     if (shown <= 0.0) break;
-    Vec4 cell = surface_values[SURFACE_LATTICE + 2 * octave];
-    Vec4 in_cell = surface_values[SURFACE_LATTICE + 2 * octave + 1];
+    Vec4 cell = READ(surface_values, SURFACE_LATTICE + 2 * octave);
+    Vec4 in_cell = READ(surface_values, SURFACE_LATTICE + 2 * octave + 1);
     Real noise = gradient_noise(Vec3(cell.x, cell.y, cell.z),
                                 Vec3(in_cell.x, in_cell.y, in_cell.z) + aside * frequency,
                                 seed + Uint(octave)) * shown;

@@ -6,7 +6,7 @@
 layout(constant_id = 10) const int OPTICAL_DEPTH_COSINES = 2;
 layout(constant_id = 11) const int OPTICAL_DEPTH_ALTITUDES = 2;
 
-layout(std430, binding = OWN) restrict buffer OpticalDepthBuffer { Vec4 optical_depths[]; };
+layout(binding = OWN, rgba32f) uniform restrict imageBuffer optical_depths;
 
 #include "tables/optical_depth.glsl"
 
@@ -18,17 +18,17 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-  int texel = push.first + int(gl_GlobalInvocationID.x);
-  if (texel >= push.end) return;
   load_scene();
   load_media();
+  int texel = push.first + int(gl_GlobalInvocationID.x);
+  if (texel >= push.end) return;
   OpticalDepthRay ray = optical_depth_ray(
       Vec2(Real(texel % OPTICAL_DEPTH_COSINES) / Real(OPTICAL_DEPTH_COSINES - 1),
            Real(texel / OPTICAL_DEPTH_COSINES) / Real(OPTICAL_DEPTH_ALTITUDES - 1)));
   Real to_top_km = distance_to_top(ray.altitude_km, ray.mu);
   Vec4 depth[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    depth[g] = push.first_medium > 0 ? optical_depths[texel * GROUPS + g] : Vec4(0.0);
+    depth[g] = push.first_medium > 0 ? READ(optical_depths, texel * GROUPS + g) : Vec4(0.0);
   }
   Real column[MEDIA_SIZE];
   some_columns_along(ray.altitude_km, ray.mu, to_top_km, push.first_medium, push.end_medium,
@@ -36,5 +36,5 @@ void main() {
   UNROLL for (int c = 0; c < MEDIA; ++c) {
     UNROLL for (int g = 0; g < GROUPS; ++g) depth[g] = depth[g] + extinction(c, g) * column[c];
   }
-  UNROLL for (int g = 0; g < GROUPS; ++g) optical_depths[texel * GROUPS + g] = depth[g];
+  UNROLL for (int g = 0; g < GROUPS; ++g) WRITE(optical_depths, texel * GROUPS + g, depth[g]);
 }

@@ -67,9 +67,9 @@ OpticalDepthPosition optical_depth_position(Real h, Real mu) {
 Vec4 tabulated_optical_depth(OpticalDepthPosition position, int group) {
   int low = position.texel;
   int high = low + OPTICAL_DEPTH_COSINES;
-  return mix(mix(optical_depths[low * GROUPS + group],
-                 optical_depths[(low + 1) * GROUPS + group], position.across),
-             mix(optical_depths[high * GROUPS + group],
-                 optical_depths[(high + 1) * GROUPS + group], position.across),
+  return mix(mix(READ(optical_depths, low * GROUPS + group),
+                 READ(optical_depths, (low + 1) * GROUPS + group), position.across),
+             mix(READ(optical_depths, high * GROUPS + group),
+                 READ(optical_depths, (high + 1) * GROUPS + group), position.across),
              position.up);
 }

@@ -4,8 +4,6 @@
 layout(constant_id = 10) const int OPTICAL_DEPTH_COSINES = 2;
 layout(constant_id = 11) const int OPTICAL_DEPTH_ALTITUDES = 2;
 
-layout(std430, binding = OPTICAL_DEPTH_BINDING) restrict readonly buffer OpticalDepthBuffer {
-  Vec4 optical_depths[];
-};
+layout(binding = OPTICAL_DEPTH_BINDING, rgba32f) uniform restrict readonly imageBuffer optical_depths;
 
 #include "tables/optical_depth.glsl"

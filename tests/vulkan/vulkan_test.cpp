@@ -12,6 +12,7 @@
 #include "engine/engine.h"
 #include "engine/vulkan/commands.h"
 #include "spirv/combine.spv.h"
+#include "spirv/texels.spv.h"
 
 namespace cyanometer::vulkan {
 namespace {
@@ -92,6 +93,50 @@ TEST_F(Combine, EachSpecializationIsAPipelineOfItsOwn) {
   }
   run({}, {});
   EXPECT_EQ(result(5), 5 + 7u) << "without constants the shader's own defaults hold";
+}
+
+TEST_F(Combine, ConstantsThatTheCodeLacksMakeNoPipelines) {
+  for (const std::uint32_t idle : {0u, 1u, 2u}) {
+    run({3, idle}, {});
+    EXPECT_EQ(result(5), 5 + 3u * 7);
+  }
+  run({3}, {});
+  EXPECT_EQ(device.pipelines().made, 1u);
+  run({4, 2}, {});
+  EXPECT_EQ(result(5), 5 + 4u * 7);
+  EXPECT_EQ(device.pipelines().made, 2u);
+}
+
+TEST(Texels, OfEveryKindAreReadAndWrittenAtTheOffsetsOfTheirBindings) {
+  Device device;
+  Commands commands(device);
+  const Kernel kernel(device, texels_spirv, 5);
+  constexpr std::size_t count = 64;
+  const std::size_t offset = device.limits().storage_alignment;
+  auto make = [&](std::size_t texel_bytes) {
+    return Buffer(device, offset + count * texel_bytes, Memory::host);
+  };
+  Buffer table = make(16), values = make(4), pairs = make(16), plain = make(4), sum = make(4);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto n = static_cast<std::uint32_t>(i);
+    const std::array<float, 4> texel{-1, -1, -1, static_cast<float>(1000 * i)};
+    const float value = static_cast<float>(i) + 0.5f;
+    const std::array<std::uint32_t, 4> pair{~0u, 1u << 20, ~0u, ~0u};
+    table.write(offset + 16 * i, bytes_of(texel));
+    values.write(offset + 4 * i, bytes_of(value));
+    pairs.write(offset + 16 * i, bytes_of(pair));
+    plain.write(offset + 4 * i, bytes_of(n));
+    sum.write(offset + 4 * i, bytes_of(n));
+  }
+  const auto at = [&](const Buffer& buffer) { return Binding(buffer, offset); };
+  for (int times = 1; times <= 2; ++times) {
+    commands.dispatch(kernel, {}, {at(table), at(values), at(pairs), at(plain), at(sum)}, {},
+                      {1});
+    commands.submit_and_wait();
+    for (std::uint32_t i = 0; i < count; ++i)
+      ASSERT_EQ(sum.as<std::uint32_t>()[offset / 4 + i],
+                i + static_cast<std::uint32_t>(times) * (1000 * i + i + (1u << 20) + i));
+  }
 }
 
 TEST_F(Combine, MoreSpecializationsThanAreKeptStillRun) {

@@ -314,7 +314,6 @@ void MomentSolver::refine(PacedWork& work, Tracer& tracer, const UploadedScene& 
 vulkan::Specialization moment_constants(const UploadedScene& scene, int degree,
                                         bool particles) {
   vulkan::Specialization constants = scene.constants();
-  constants[7] = 0;  // PROJECTION
   constants[9] = 0;  // MANY_SUNS
   constants.push_back(static_cast<std::uint32_t>(degree));
   constants.push_back(particles);

@@ -83,7 +83,7 @@ class MomentSolver {
   vulkan::Kernel rays_, first_, project_, order_, rows_, next_, modes_, close_, refine_;
 };
 
-/// The scene's constants for a kernel that has neither camera nor disc, and two of its own.
+/// The scene's constants for a kernel that knows of no disc, and two of its own.
 vulkan::Specialization moment_constants(const UploadedScene& scene, int degree, bool particles);
 
 /// Rounds of loops on a piece of a ray with so many nodes, as shaders/methods/raymarch.glsl

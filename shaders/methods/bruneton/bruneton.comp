@@ -9,7 +9,7 @@
 #include "methods/bruneton/multiple_view.glsl"
 #define IRRADIANCE_BINDING (FREE + 1)
 #include "methods/bruneton/irradiance_table.glsl"
-layout(std430, binding = FREE + 2) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = FREE + 2, rgba32f) uniform restrict imageBuffer tile;
 
 layout(push_constant) uniform Push {
   int first_ray;
@@ -17,10 +17,11 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_grids();
   int i = int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= n) return;
-  load_scene();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
   Vec3 end = path.start + path.direction * path.length_km;
@@ -28,14 +29,14 @@ void main() {
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     if (!ends_on_ground(path)) continue;
     int ground = (GROUND * GROUPS + g) * n + i;
-    tile[ground] = tile[ground] +
+    WRITE(tile, ground, READ(tile, ground) +
                    ground_seen(left_by_ground(diffuse_irradiance(mu_s, g), g),
-                               tile[(TRANSMITTANCE * GROUPS + g) * n + i]);
+                               READ(tile, (TRANSMITTANCE * GROUPS + g) * n + i)));
   }
   if (path.cut || !(path.length_km > 0.0)) return;
   ViewPosition at = view_position(path);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     int inscatter = (INSCATTER * GROUPS + g) * n + i;
-    tile[inscatter] = tile[inscatter] + scattered(at, g);
+    WRITE(tile, inscatter, READ(tile, inscatter) + scattered(at, g));
   }
 }

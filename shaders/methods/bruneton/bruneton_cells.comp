@@ -19,17 +19,17 @@ void keep_point(int entry, Real h, Real mu, Real t) {
   Real inverse_radius = 1.0 / (scene.planet_radius_km + altitude);
   Real mu_there = clamp((r * mu + t) * inverse_radius, -1.0, 1.0);
   Real sine = clamp(r * sqrt(max(1.0 - mu * mu, 0.0)) * inverse_radius, 0.0, 1.0);
-  cell_values[entry] =
-      Vec4(node_coordinate(altitude_share(source, altitude), source.altitudes),
-           node_coordinate(acos(mu_there) / PI, source.zeniths), t, inverse_radius);
-  cell_values[entry + 1] = Vec4(mu_there, sine, 0.0, 0.0);
+  WRITE(cell_values, entry, Vec4(node_coordinate(altitude_share(source, altitude), source.altitudes),
+           node_coordinate(acos(mu_there) / PI, source.zeniths), t, inverse_radius));
+  WRITE(cell_values, entry + 1, Vec4(mu_there, sine, 0.0, 0.0));
 }
 
 void main() {
-  int ray = push.first_ray + int(gl_GlobalInvocationID.x);
-  if (ray >= push.end_ray) return;
   load_scene();
   load_media();
+  load_grids();
+  int ray = push.first_ray + int(gl_GlobalInvocationID.x);
+  if (ray >= push.end_ray) return;
   int a = ray / grid.zeniths;
   int z = ray % grid.zeniths;
   Real h = node_altitude(a);
@@ -44,12 +44,11 @@ void main() {
     int entry = cell_entry(ray, push.cells, i);
     keep_point(entry, h, mu, cross_cell(h, mu, cell, extinguished, scattered));
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      cell_values[entry + 2 + g] =
-          transmittance[g] * scattered[g] * escaping_share(extinguished[g]);
+      WRITE(cell_values, entry + 2 + g, transmittance[g] * scattered[g] * escaping_share(extinguished[g]));
       transmittance[g] = transmittance[g] * exp(-extinguished[g]);
     }
   }
   int end = cell_entry(ray, push.cells, push.cells);
   keep_point(end, h, mu, length_km);
-  UNROLL for (int g = 0; g < GROUPS; ++g) cell_values[end + 2 + g] = transmittance[g];
+  UNROLL for (int g = 0; g < GROUPS; ++g) WRITE(cell_values, end + 2 + g, transmittance[g]);
 }

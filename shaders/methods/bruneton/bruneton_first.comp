@@ -5,9 +5,9 @@
 #include "device.glsl"
 #include "methods/raymarch.glsl"
 #include "methods/bruneton/tables.glsl"
-layout(std430, binding = FREE) restrict buffer RadianceBuffer { Vec4 radiances[]; };
+layout(binding = FREE, rgba32f) uniform restrict imageBuffer radiances;
 // How far along each ray the march has come, km.
-layout(std430, binding = FREE + 1) restrict buffer ProgressBuffer { Real progress_km[]; };
+layout(binding = FREE + 1, r32f) uniform restrict imageBuffer progress_km;
 
 layout(push_constant) uniform Push {
   int first_texel;
@@ -33,21 +33,22 @@ Path path_of(Texel texel) {
 }
 
 void main() {
+  load_scene();
+  load_media();
+  load_grids();
   int offset = int(gl_GlobalInvocationID.x);
   int index = push.first_texel + offset;
   if (index >= push.end_texel) return;
-  load_scene();
-  load_media();
   Path path = path_of(texel_at(index));
   Vec4 radiance[GROUPS];
   Vec4 ground[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    radiance[g] = push.first != 0 ? Vec4(0.0) : radiances[g * texels() + index];
+    radiance[g] = push.first != 0 ? Vec4(0.0) : READ(radiances, g * texels() + index);
     ground[g] = Vec4(0.0);
   }
-  Real from_km = push.first != 0 ? 0.0 : progress_km[offset];
+  Real from_km = push.first != 0 ? 0.0 : READ_REAL(progress_km, offset);
   march_towards(path, 0, push.view_nodes, push.pieces, from_km, radiance);
-  progress_km[offset] = from_km;
+  WRITE_REAL(progress_km, offset, from_km);
   if (push.last != 0 && path.meets_ground) {
     light_ground_from(path, 0, ground);
     Real column[MEDIA_SIZE];
@@ -56,5 +57,5 @@ void main() {
       radiance[g] = radiance[g] + ground[g] * transmittance_of(column, g);
     }
   }
-  UNROLL for (int g = 0; g < GROUPS; ++g) radiances[g * texels() + index] = radiance[g];
+  UNROLL for (int g = 0; g < GROUPS; ++g) WRITE(radiances, g * texels() + index, radiance[g]);
 }

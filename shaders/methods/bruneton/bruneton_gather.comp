@@ -23,9 +23,10 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_grids();
   int index = push.first_texel + int(gl_GlobalInvocationID.x);
   if (index >= push.end_texel) return;
-  load_scene();
   Texel texel = texel_at(index);
   Real h = node_altitude(texel.altitude);
   Real r = scene.planet_radius_km + h;
@@ -45,7 +46,7 @@ void main() {
         source_position(point.altitude_coordinate, point.zenith_coordinate, mu_s_there,
                         azimuth_cosine(point.mu, point.sine, mu_s_there, nu));
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      radiance[g] = radiance[g] + cell_values[entry + 2 + g] * source_at(at, g);
+      radiance[g] = radiance[g] + READ(cell_values, entry + 2 + g) * source_at(at, g);
     }
   }
   if (push.with_ground != 0 && node_meets_ground(grid, h, texel.zenith, mu)) {
@@ -53,7 +54,7 @@ void main() {
     Real mu_s_there =
         (r * mu_s + ray_point(end).distance_km * nu) / scene.planet_radius_km;
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      radiance[g] = radiance[g] + cell_values[end + 2 + g] * lambertian(g) *
+      radiance[g] = radiance[g] + READ(cell_values, end + 2 + g) * lambertian(g) *
                                       diffuse_irradiance(mu_s_there, g);
     }
   }

@@ -4,9 +4,7 @@
 // integrated over the upper hemisphere. An invocation is a sun.
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
-layout(std430, binding = FREE) restrict readonly buffer RadianceBuffer {
-  Vec4 radiances[];
-};
+layout(binding = FREE, rgba32f) uniform restrict readonly imageBuffer radiances;
 layout(std430, binding = FREE + 1) restrict writeonly buffer IrradianceBuffer {
   Vec4 irradiances[];
 };
@@ -17,6 +15,7 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_grids();
   int s = push.first_sun + int(gl_GlobalInvocationID.x);
   if (s >= push.end_sun) return;
   Vec4 sum[GROUPS];
@@ -28,7 +27,7 @@ void main() {
       Real weight = node_solid_angle(0, z, k) * mu;
       int texel = (s * grid.zeniths + z) * grid.azimuths + k;
       UNROLL for (int g = 0; g < GROUPS; ++g) {
-        sum[g] = sum[g] + weight * radiances[g * texels() + texel];
+        sum[g] = sum[g] + weight * READ(radiances, g * texels() + texel);
       }
     }
   }

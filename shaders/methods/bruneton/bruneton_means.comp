@@ -6,12 +6,10 @@
 #include "methods/bruneton/tables.glsl"
 #include "methods/later_orders.glsl"
 #include "methods/bruneton/chunks.glsl"
-layout(std430, binding = FREE) restrict readonly buffer SourceBuffer { Vec4 source_sums[]; };
-layout(std430, binding = FREE + 1) restrict readonly buffer EarlierBuffer { Vec4 earlier_sources[]; };
-layout(std430, binding = FREE + 2) restrict readonly buffer IrradianceBuffer { Vec4 irradiance_sums[]; };
-layout(std430, binding = FREE + 3) restrict readonly buffer EarlierIrradianceBuffer {
-  Vec4 earlier_irradiances[];
-};
+layout(binding = FREE, rgba32f) uniform restrict readonly imageBuffer source_sums;
+layout(binding = FREE + 1, rgba32f) uniform restrict readonly imageBuffer earlier_sources;
+layout(binding = FREE + 2, rgba32f) uniform restrict readonly imageBuffer irradiance_sums;
+layout(binding = FREE + 3, rgba32f) uniform restrict readonly imageBuffer earlier_irradiances;
 layout(std430, binding = FREE + 4) restrict buffer ChunkBuffer { Vec4 chunk_values[]; };
 
 layout(push_constant) uniform Push {
@@ -28,15 +26,16 @@ int first_texel(int altitude, int sun, int g) {
 
 // The sum of what came before chunk n, or of all, at a place of the table.
 Vec4 source_before(int n, int texel) {
-  if (n == push.chunks) return source_sums[texel];
-  return earlier_sources[n * GROUPS * grid.altitudes * grid.suns * push.directions + texel];
+  if (n == push.chunks) return READ(source_sums, texel);
+  return READ(earlier_sources, n * GROUPS * grid.altitudes * grid.suns * push.directions + texel);
 }
 Vec4 irradiance_before(int n, int texel) {
-  if (n == push.chunks) return irradiance_sums[texel];
-  return earlier_irradiances[n * GROUPS * grid.suns + texel];
+  if (n == push.chunks) return READ(irradiance_sums, texel);
+  return READ(earlier_irradiances, n * GROUPS * grid.suns + texel);
 }
 
 void main() {
+  load_grids();
   int item = push.first_item + int(gl_GlobalInvocationID.x);
   if (item >= push.end_item) return;
   int g = item % GROUPS;

@@ -6,12 +6,10 @@
 #include "methods/bruneton/tables.glsl"
 #include "methods/later_orders.glsl"
 #include "methods/bruneton/chunks.glsl"
-layout(std430, binding = FREE) restrict readonly buffer OrderBuffer {
-  Vec4 order_values[];
-};
-layout(std430, binding = FREE + 1) restrict buffer SumBuffer { Vec4 sums[]; };
-layout(std430, binding = FREE + 2) restrict readonly buffer EarlierBuffer { Vec4 earlier_sums[]; };
-layout(std430, binding = FREE + 3) restrict readonly buffer ChunkBuffer { Vec4 chunk_values[]; };
+layout(binding = FREE, rgba32f) uniform restrict readonly imageBuffer order_values;
+layout(binding = FREE + 1, rgba32f) uniform restrict imageBuffer sums;
+layout(binding = FREE + 2, rgba32f) uniform restrict readonly imageBuffer earlier_sums;
+layout(binding = FREE + 3, rgba32f) uniform restrict readonly imageBuffer chunk_values;
 layout(std430, binding = FREE + 4) restrict writeonly buffer ResultBuffer {
   Vec4 results[];
 };
@@ -32,19 +30,20 @@ const Real MOST_BEND = 2.0;
 
 Vec4 chunk(int n, int texel) {
   int table = GROUPS * push.places * grid.suns * push.directions;
-  Vec4 after = n + 1 < push.chunks ? earlier_sums[(n + 1) * table + texel] : sums[texel];
-  return after - earlier_sums[n * table + texel];
+  Vec4 after = n + 1 < push.chunks ? READ(earlier_sums, (n + 1) * table + texel) : READ(sums, texel);
+  return after - READ(earlier_sums, n * table + texel);
 }
 
 Vec4 later_orders(int texel, int sun, int group) {
   Vec4 later = Vec4(0.0);
   for (int n = 1; n < push.chunks; ++n) {
-    later = later + chunk(n, texel) * chunk_values[chunk_weight_at(n, sun) + group];
+    later = later + chunk(n, texel) * READ(chunk_values, chunk_weight_at(n, sun) + group);
   }
   return max(later, Vec4(0.0));
 }
 
 void main() {
+  load_grids();
   int item = push.first_item + int(gl_GlobalInvocationID.x);
   if (item >= push.end_item) return;
   int direction = item % push.directions;
@@ -55,10 +54,10 @@ void main() {
   Vec4 to_last = Vec4(0.0);  // of all later orders, under the highest sun
   for (int s = grid.suns - 1; s >= 0; --s) {
     int texel = (place * grid.suns + s) * push.directions + direction;
-    Vec4 value = sums[texel];
+    Vec4 value = READ(sums, texel);
     if (push.close == 0) {
-      value = order_values[texel];
-      sums[texel] = sums[texel] + value;
+      value = READ(order_values, texel);
+      WRITE(sums, texel, READ(sums, texel) + value);
     } else if (push.chunks > 1) {
       Vec4 last = max(chunk(push.chunks - 1, texel), Vec4(0.0));
       Vec4 later = later_orders(texel, s, group);

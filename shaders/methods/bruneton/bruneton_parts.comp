@@ -8,7 +8,7 @@
 #include "methods/bruneton/march.glsl"
 #define SOURCE_BINDING FREE
 #include "methods/bruneton/source_table.glsl"
-layout(std430, binding = FREE + 1) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = FREE + 1, rgba32f) uniform restrict imageBuffer tile;
 
 layout(push_constant) uniform Push {
   int first;      // of this dispatch
@@ -19,11 +19,12 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_media();
+  load_grids();
   int i = push.first + int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= push.end) return;
-  load_scene();
-  load_media();
   Path path = path_of_ray(push.first_ray + i, pixel_ray(push.first_ray + i));
   if (!path.cut) return;
   Vec3 sun = Vec3(scene.sun_direction.x, scene.sun_direction.y, scene.sun_direction.z);
@@ -56,6 +57,6 @@ void main() {
   }
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     int to = (INSCATTER * GROUPS + g) * n + i;
-    tile[to] = tile[to] + radiance[g];
+    WRITE(tile, to, READ(tile, to) + radiance[g]);
   }
 }

@@ -53,10 +53,11 @@ void scatterers_at(Real h, OUT_ARRAY(Real, density, MEDIA_SIZE)) {
 }
 
 void main() {
-  int pair = push.first_pair + int(gl_GlobalInvocationID.x);
-  if (pair >= push.end_pair) return;
   load_scene();
   load_media();
+  load_grids();
+  int pair = push.first_pair + int(gl_GlobalInvocationID.x);
+  if (pair >= push.end_pair) return;
   int outgoing = pair % (push.out_zeniths * push.out_azimuths);
   int incoming = pair / (push.out_zeniths * push.out_azimuths);
   Real out_zenith = PI * Real(outgoing / push.out_azimuths) / Real(push.out_zeniths - 1);

@@ -5,7 +5,7 @@
 // sample of every path. An invocation is a texel of the finer grid.
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
-layout(std430, binding = FREE) restrict readonly buffer CoarseBuffer { Vec4 coarse[]; };
+layout(binding = FREE, rgba32f) uniform restrict readonly imageBuffer coarse;
 layout(std430, binding = FREE + 1) restrict writeonly buffer FineBuffer { Vec4 fine[]; };
 
 layout(push_constant) uniform Push {
@@ -40,6 +40,7 @@ Taps taps_about(int node, int count) {
 }
 
 void main() {
+  load_grids();
   int texel = push.first_texel + int(gl_GlobalInvocationID.x);
   if (texel >= push.end_texel) return;
   int fine_rows = (push.rows - 1) * push.factor + 1;
@@ -56,7 +57,7 @@ void main() {
     Vec4 in_row = Vec4(0.0);
     UNROLL for (int c = 0; c < 4; ++c) {
       int node = first + min(column.first + c, push.columns - 1);
-      in_row = in_row + column.weight[c] * coarse[node * push.inner + inner];
+      in_row = in_row + column.weight[c] * READ(coarse, node * push.inner + inner);
     }
     value = value + row.weight[r] * in_row;
   }

@@ -26,7 +26,7 @@ void add_cell(Real h, Real mu_s, int entry, INOUT_ARRAY(Vec4, sum, MEDIA_GROUPS_
     UNROLL for (int c = 0; c < MEDIA; ++c) {
       coefficient = coefficient + scattering(c, g) * density[c];
     }
-    Vec4 light = cell_values[entry + 2 + g] * transmittance_of(column, g) /
+    Vec4 light = READ(cell_values, entry + 2 + g) * transmittance_of(column, g) /
                  max(coefficient, Vec4(1e-30));
     UNROLL for (int c = 0; c < MEDIA; ++c) {
       sum[c * GROUPS + g] = sum[c * GROUPS + g] + light * density[c];
@@ -38,22 +38,23 @@ void keep(int index, ARRAY(Vec4, sum, MEDIA_GROUPS_SIZE)) {
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 molecules = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) {
-      if (SEPARATE) singles[(c * GROUPS + g) * texels() + index] = sum[c * GROUPS + g];
+      if (SEPARATE) WRITE(singles, (c * GROUPS + g) * texels() + index, sum[c * GROUPS + g]);
       if (molecular(c)) molecules = molecules + scattering(c, g) * sum[c * GROUPS + g];
     }
-    if (!SEPARATE) singles[g * texels() + index] = molecules;
+    if (!SEPARATE) WRITE(singles, g * texels() + index, molecules);
   }
   if (SEPARATE) return;
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    first_wavelengths[c * texels() + index] = sum[c * GROUPS].x;
+    WRITE_REAL(first_wavelengths, c * texels() + index, sum[c * GROUPS].x);
   }
 }
 
 void main() {
-  int index = push.first_texel + int(gl_GlobalInvocationID.x);
-  if (index >= push.end_texel) return;
   load_scene();
   load_media();
+  load_grids();
+  int index = push.first_texel + int(gl_GlobalInvocationID.x);
+  if (index >= push.end_texel) return;
   Texel texel = texel_at(index);
   Real r = scene.planet_radius_km + node_altitude(texel.altitude);
   Real mu = node_cosine(texel.altitude, texel.zenith);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // The first order of a tile from its tables, and the transmittance and the sunlit ground by quadrature. An
 // invocation is a ray.
+#define ANY_PROJECTION
 #include "device.glsl"
 #include "methods/raymarch.glsl"
 #include "methods/bruneton/tables.glsl"
@@ -9,7 +10,7 @@
 #define SINGLE_BINDING FREE
 #include "methods/bruneton/single_table.glsl"
 #include "methods/bruneton/single_view.glsl"
-layout(std430, binding = FREE + 2) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = FREE + 2, rgba32f) uniform restrict imageBuffer tile;
 
 layout(push_constant) uniform Push {
   int first_ray;
@@ -17,11 +18,12 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_media();
+  load_grids();
   int i = int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= n) return;
-  load_scene();
-  load_media();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
   if (path.cut) return;
@@ -37,8 +39,8 @@ void main() {
   columns_along(path.altitude_km, path.mu, path.length_km, column);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 transmittance = transmittance_of(column, g);
-    tile[(INSCATTER * GROUPS + g) * n + i] = inscatter[g];
-    tile[(GROUND * GROUPS + g) * n + i] = ground[g] * transmittance;
-    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = transmittance;
+    WRITE(tile, (INSCATTER * GROUPS + g) * n + i, inscatter[g]);
+    WRITE(tile, (GROUND * GROUPS + g) * n + i, ground[g] * transmittance);
+    WRITE(tile, (TRANSMITTANCE * GROUPS + g) * n + i, transmittance);
   }
 }

@@ -6,12 +6,8 @@
 // invocation is a direction under one sun.
 #include "device.glsl"
 #include "methods/bruneton/tables.glsl"
-layout(std430, binding = FREE) restrict readonly buffer ShareBuffer {
-  Vec4 shares[];
-};
-layout(std430, binding = FREE + 1) restrict readonly buffer RadianceBuffer {
-  Vec4 radiances[];
-};
+layout(binding = FREE, rgba32f) uniform restrict readonly imageBuffer shares;
+layout(binding = FREE + 1, rgba32f) uniform restrict readonly imageBuffer radiances;
 layout(std430, binding = FREE + 2) restrict writeonly buffer SourceBuffer {
   Vec4 sources[];
 };
@@ -25,6 +21,7 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_grids();
   int item = push.first_item + int(gl_GlobalInvocationID.x);
   if (item >= push.end_item) return;
   int outgoing = push.out_zeniths * push.out_azimuths;
@@ -39,8 +36,8 @@ void main() {
   }
   for (int i = 0; i < incoming; ++i) {
     UNROLL for (int g = 0; g < GROUPS; ++g) {
-      Vec4 share = shares[(g * incoming + i) * outgoing + direction];
-      sum[g] = sum[g] + share * radiances[g * texels() + place * incoming + i];
+      Vec4 share = READ(shares, (g * incoming + i) * outgoing + direction);
+      sum[g] = sum[g] + share * READ(radiances, g * texels() + place * incoming + i);
       total[g] = total[g] + share;
     }
   }

@@ -1,7 +1,7 @@
 // The cells of every ray of the grid, which all suns, azimuths and orders share. Define CELL_BINDING
 // first. An entry is two vec4 of geometry and GROUPS of light; that after the last cell is the ray's
 // end, with the transmittance to it.
-layout(std430, binding = CELL_BINDING) restrict buffer CellBuffer { Vec4 cell_values[]; };
+layout(binding = CELL_BINDING, rgba32f) uniform restrict imageBuffer cell_values;
 
 int cell_entry(int ray, int cells, int cell) {
   return (ray * (cells + 1) + cell) * (2 + GROUPS);
@@ -16,8 +16,8 @@ struct RayPoint {
 };
 
 RayPoint ray_point(int entry) {
-  Vec4 a = cell_values[entry];
-  Vec4 b = cell_values[entry + 1];
+  Vec4 a = READ(cell_values, entry);
+  Vec4 b = READ(cell_values, entry + 1);
   RayPoint point;
   point.altitude_coordinate = a.x;
   point.zenith_coordinate = a.y;

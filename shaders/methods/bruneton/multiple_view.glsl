@@ -1,11 +1,11 @@
 // Reads the view table: light of the orders from the second on. Included after view_table.glsl; define
 // VIEW_BINDING first.
-layout(std430, binding = VIEW_BINDING) restrict readonly buffer ViewBuffer { Vec4 views[]; };
+layout(binding = VIEW_BINDING, rgba32f) uniform restrict readonly imageBuffer views;
 
 Vec4 view_in_direction(ViewPosition at, int texel) {
   int next = texel + grid.azimuths;
-  return mix(mix(views[texel], views[texel + 1], at.azimuth.share),
-             mix(views[next], views[next + 1], at.azimuth.share), at.zenith.share);
+  return mix(mix(READ(views, texel), READ(views, texel + 1), at.azimuth.share),
+             mix(READ(views, next), READ(views, next + 1), at.azimuth.share), at.zenith.share);
 }
 
 Vec4 scattered(ViewPosition at, int group) {

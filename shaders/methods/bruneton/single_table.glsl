@@ -4,9 +4,7 @@
 // are made in the colours of the molecules. Define SINGLE_BINDING first; the particles' follow.
 layout(constant_id = 13) const bool SEPARATE = true;
 
-layout(std430, binding = SINGLE_BINDING) restrict buffer SingleBuffer { Vec4 singles[]; };
-layout(std430, binding = SINGLE_BINDING + 1) restrict buffer ParticleBuffer {
-  Real first_wavelengths[];
-};
+layout(binding = SINGLE_BINDING, rgba32f) uniform restrict imageBuffer singles;
+layout(binding = SINGLE_BINDING + 1, r32f) uniform restrict imageBuffer first_wavelengths;
 
 bool molecular(int c) { return medium(c).phase == PHASE_RAYLEIGH; }

@@ -25,7 +25,7 @@ Vec4 single(ViewPosition at, int table) {
   Vec4 sum = Vec4(0.0);
   ROLLED for (int i = 0; i < 16; ++i) {
     Corner corner = corner_of(at, i);
-    sum = sum + corner.weight * singles[table * texels() + corner.texel];
+    sum = sum + corner.weight * READ(singles, table * texels() + corner.texel);
   }
   return sum;
 }
@@ -34,7 +34,7 @@ Real first_wavelength(ViewPosition at, int c) {
   Real sum = 0.0;
   ROLLED for (int i = 0; i < 16; ++i) {
     Corner corner = corner_of(at, i);
-    sum += corner.weight * first_wavelengths[c * texels() + corner.texel];
+    sum += corner.weight * READ_REAL(first_wavelengths, c * texels() + corner.texel);
   }
   return sum;
 }

@@ -1,8 +1,6 @@
 // Reads the source table: what the air scatters towards a direction, per unit of its scattering
 // coefficient (1/sr). Define SOURCE_BINDING first.
-layout(std430, binding = SOURCE_BINDING) restrict readonly buffer SourceBuffer {
-  Vec4 sources[];
-};
+layout(binding = SOURCE_BINDING, rgba32f) uniform restrict readonly imageBuffer sources;
 
 // Where a ray's point and direction lie in the table.
 struct SourcePosition {
@@ -28,8 +26,8 @@ SourcePosition source_position(Real altitude_coordinate, Real zenith_coordinate,
 // Of the four neighbours in direction from `texel` on.
 Vec4 source_towards(int texel, Between zenith, Between azimuth) {
   int next = texel + source.azimuths;
-  return mix(mix(sources[texel], sources[texel + 1], azimuth.share),
-             mix(sources[next], sources[next + 1], azimuth.share), zenith.share);
+  return mix(mix(READ(sources, texel), READ(sources, texel + 1), azimuth.share),
+             mix(READ(sources, next), READ(sources, next + 1), azimuth.share), zenith.share);
 }
 
 Vec4 source_at(SourcePosition at, int group) {

@@ -6,20 +6,28 @@
 layout(constant_id = 10) const bool LOGARITHMIC = true;
 
 layout(std430, binding = OWN) restrict readonly buffer GridBuffer {
-  ScatteringGrid grid;    // of the rays
-  ScatteringGrid source;  // of what they gather: zeniths and azimuths are even in angle
+  ScatteringGrid stored_grid;    // of the rays
+  ScatteringGrid stored_source;  // of what they gather: zeniths and azimuths are even in angle
 };
+ScatteringGrid grid, source;
+
+// main() begins with it.
+void load_grids() {
+  grid = stored_grid;
+  source = stored_source;
+}
+
 // Altitudes (km), sun cosines, then for each altitude the zenith cosines, then their weights in an
 // integral over the zenith cosine.
-layout(std430, binding = OWN + 1) restrict readonly buffer NodeBuffer { Real nodes[]; };
+layout(binding = OWN + 1, r32f) uniform restrict readonly imageBuffer nodes;
 #define FREE (OWN + 2)  // bindings of a kernel's own
 
-Real node_altitude(int a) { return nodes[a]; }
-Real node_sun(int s) { return nodes[grid.altitudes + s]; }
+Real node_altitude(int a) { return READ_REAL(nodes, a); }
+Real node_sun(int s) { return READ_REAL(nodes, grid.altitudes + s); }
 int first_cosine() { return grid.altitudes + grid.suns; }
-Real node_cosine(int a, int z) { return nodes[first_cosine() + a * grid.zeniths + z]; }
+Real node_cosine(int a, int z) { return READ_REAL(nodes, first_cosine() + a * grid.zeniths + z); }
 Real node_weight(int a, int z) {
-  return nodes[first_cosine() + (grid.altitudes + a) * grid.zeniths + z];
+  return READ_REAL(nodes, first_cosine() + (grid.altitudes + a) * grid.zeniths + z);
 }
 Real node_azimuth(int k) { return PI * Real(k) / Real(max(grid.azimuths - 1, 1)); }
 

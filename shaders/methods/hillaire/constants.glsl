@@ -9,13 +9,13 @@ layout(constant_id = 16) const int SKY_VIEW_STOPS = 1;  // of parts of rays; 1: 
 // The share of each constituent's scattering that changes a direction, by group of wavelengths: the rest is
 // a forward peak that goes straight on. Tables are made without it (with optical depths to match), and
 // first order is given back by pixels what it lost of its phase function.
-layout(std430, binding = OWN + 1) restrict readonly buffer KeptBuffer { Vec4 scattering_kept[]; };
+layout(binding = OWN + 1, rgba32f) uniform restrict readonly imageBuffer scattering_kept;
 Vec4 forward_gain_[MEDIA_GROUPS_SIZE];
 #define forward_gain(c, group) forward_gain_[(c) * GROUPS + (group)]
 
 void take_out_forward_peak() {
   UNROLL for (int i = 0; i < MEDIA * GROUPS; ++i) {
-    Vec4 kept = scattering_kept[i];
+    Vec4 kept = READ(scattering_kept, i);
     extinction_[i] = extinction_[i] - scattering_[i] * (1.0 - kept);
     scattering_[i] = scattering_[i] * kept;
     forward_gain_[i] = 1.0 / kept;

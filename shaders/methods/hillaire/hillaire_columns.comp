@@ -5,7 +5,7 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = OWN + 4) restrict buffer ColumnBuffer { Real view_columns[]; };
+layout(binding = OWN + 4, r32f) uniform restrict imageBuffer view_columns;
 
 #include "methods/hillaire/view.glsl"
 
@@ -18,10 +18,10 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-  int node = push.first + int(gl_GlobalInvocationID.x);
-  if (node >= push.end) return;
   load_scene();
   load_media();
+  int node = push.first + int(gl_GlobalInvocationID.x);
+  if (node >= push.end) return;
   take_out_forward_peak();
   bool ground = node >= VIEW_NODES;
   Real x = Real(node % VIEW_NODES) / Real(VIEW_NODES - 1);
@@ -31,6 +31,6 @@ void main() {
   some_columns_along(ray.altitude_km, ray.mu, ray.length_km, push.first_medium, push.end_medium,
                      column);
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    if (c >= push.first_medium && c < push.end_medium) view_columns[node * MEDIA + c] = column[c];
+    if (c >= push.first_medium && c < push.end_medium) WRITE_REAL(view_columns, node * MEDIA + c, column[c]);
   }
 }

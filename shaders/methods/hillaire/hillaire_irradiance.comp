@@ -6,10 +6,10 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/second_order.glsl"
 
-layout(std430, binding = OWN + 2) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict readonly imageBuffer parts;
 // Of a sun twice GROUPS: sums over directions of the sky's radiance, and of what a unit of the ground's
 // diffuse radiance adds to it; in the end the ground's diffuse radiance, and the logarithm of the irradiance.
-layout(std430, binding = OWN + 3) restrict buffer SunsBuffer { Vec4 suns[]; };
+layout(binding = OWN + 3, rgba32f) uniform restrict imageBuffer suns;
 
 layout(push_constant) uniform Push {
   int first;  // sun
@@ -27,8 +27,8 @@ Vec4 interpolated_part(NodePosition sun, NodePosition altitude, int part, int gr
   int low = (3 * (altitude.node * MULTIPLE_SUNS + sun.node) + part) * GROUPS + group;
   int high = low + 3 * MULTIPLE_SUNS * GROUPS;
   int next = 3 * GROUPS;
-  return mix(mix(parts[low], parts[low + next], sun.fraction),
-             mix(parts[high], parts[high + next], sun.fraction), altitude.fraction);
+  return mix(mix(READ(parts, low), READ(parts, low + next), sun.fraction),
+             mix(READ(parts, high), READ(parts, high + next), sun.fraction), altitude.fraction);
 }
 
 void add_sky(SunlitRay ray, ScatteringAngle angle, INOUT_ARRAY(Vec4, radiance, GROUPS),
@@ -70,10 +70,10 @@ void add_sky(SunlitRay ray, ScatteringAngle angle, INOUT_ARRAY(Vec4, radiance, G
 }
 
 void main() {
-  int node = push.first + int(gl_GlobalInvocationID.x);
-  if (node >= push.end) return;
   load_scene();
   load_media();
+  int node = push.first + int(gl_GlobalInvocationID.x);
+  if (node >= push.end) return;
   take_out_forward_peak();
   Real mu_sun = sun_cosine_at(Real(node) / Real(MULTIPLE_SUNS - 1));
   Vec3 to_sun = Vec3(sqrt(1.0 - mu_sun * mu_sun), 0.0, mu_sun);
@@ -81,8 +81,8 @@ void main() {
   Vec4 coupled[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     bool fresh = push.first_direction == 0;
-    radiance[g] = fresh ? Vec4(0.0) : suns[2 * node * GROUPS + g];
-    coupled[g] = fresh ? Vec4(0.0) : suns[(2 * node + 1) * GROUPS + g];
+    radiance[g] = fresh ? Vec4(0.0) : READ(suns, 2 * node * GROUPS + g);
+    coupled[g] = fresh ? Vec4(0.0) : READ(suns, (2 * node + 1) * GROUPS + g);
   }
   for (int i = push.first_direction; i < push.end_direction; ++i) {
     Real mu = lattice_cosine_above(i, push.directions);
@@ -103,7 +103,7 @@ void main() {
       radiance[g] = lambertian(g) * irradiance;
       coupled[g] = log(max(irradiance, Vec4(1e-30)));
     }
-    suns[2 * node * GROUPS + g] = radiance[g];
-    suns[(2 * node + 1) * GROUPS + g] = coupled[g];
+    WRITE(suns, 2 * node * GROUPS + g, radiance[g]);
+    WRITE(suns, (2 * node + 1) * GROUPS + g, coupled[g]);
   }
 }

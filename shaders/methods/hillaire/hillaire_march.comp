@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Pixels by a march each: from outside the air, where a sky view would be too coarse, and under a near sun or
 // one of several points, one of which a dispatch adds.
+#define ANY_PROJECTION
 #include "device.glsl"
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = OWN + 5) restrict buffer TileBuffer { Vec4 tile[]; };
+layout(binding = OWN + 4, r32f) uniform restrict readonly imageBuffer view_columns;
+layout(binding = OWN + 5, rgba32f) uniform restrict imageBuffer tile;
 
 #include "methods/hillaire/view.glsl"
 
@@ -24,11 +25,11 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_media();
   int i = push.first + int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= push.end) return;
-  load_scene();
-  load_media();
   take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);
@@ -54,11 +55,11 @@ void main() {
     Vec4 inscatter = radiance_of(column, once, further, scattering_phase, g) * share;
     Vec4 reflected = ground_seen(ground[g], transmittance) * share;
     if (push.sun > 0) {
-      inscatter = inscatter + tile[(INSCATTER * GROUPS + g) * n + i];
-      reflected = reflected + tile[(GROUND * GROUPS + g) * n + i];
+      inscatter = inscatter + READ(tile, (INSCATTER * GROUPS + g) * n + i);
+      reflected = reflected + READ(tile, (GROUND * GROUPS + g) * n + i);
     }
-    tile[(INSCATTER * GROUPS + g) * n + i] = inscatter;
-    tile[(GROUND * GROUPS + g) * n + i] = reflected;
-    tile[(TRANSMITTANCE * GROUPS + g) * n + i] = true_transmittance(column, g);
+    WRITE(tile, (INSCATTER * GROUPS + g) * n + i, inscatter);
+    WRITE(tile, (GROUND * GROUPS + g) * n + i, reflected);
+    WRITE(tile, (TRANSMITTANCE * GROUPS + g) * n + i, true_transmittance(column, g));
   }
 }

@@ -8,7 +8,7 @@
 
 // Of a texel three times GROUPS: sums over directions of what add_second_order gives; in the end order two
 // with its series, and what a unit of the ground's diffuse radiance adds.
-layout(std430, binding = OWN + 2) restrict buffer PartsBuffer { Vec4 parts[]; };
+layout(binding = OWN + 2, rgba32f) uniform restrict imageBuffer parts;
 
 layout(push_constant) uniform Push {
   int first;  // texel
@@ -22,10 +22,10 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-  int texel = push.first + int(gl_GlobalInvocationID.x);
-  if (texel >= push.end) return;
   load_scene();
   load_media();
+  int texel = push.first + int(gl_GlobalInvocationID.x);
+  if (texel >= push.end) return;
   take_out_forward_peak();
   Real h = altitude_at(Real(texel / MULTIPLE_SUNS) / Real(MULTIPLE_ALTITUDES - 1));
   Real mu_sun = sun_cosine_at(Real(texel % MULTIPLE_SUNS) / Real(MULTIPLE_SUNS - 1));
@@ -34,9 +34,9 @@ void main() {
   Vec4 ground[GROUPS];
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     bool fresh = push.first_direction == 0;
-    radiance[g] = fresh ? Vec4(0.0) : parts[3 * texel * GROUPS + g];
-    lost[g] = fresh ? Vec4(0.0) : parts[(3 * texel + 1) * GROUPS + g];
-    ground[g] = fresh ? Vec4(0.0) : parts[(3 * texel + 2) * GROUPS + g];
+    radiance[g] = fresh ? Vec4(0.0) : READ(parts, 3 * texel * GROUPS + g);
+    lost[g] = fresh ? Vec4(0.0) : READ(parts, (3 * texel + 1) * GROUPS + g);
+    ground[g] = fresh ? Vec4(0.0) : READ(parts, (3 * texel + 2) * GROUPS + g);
   }
   for (int i = push.first_direction; i < push.end_direction; ++i) {
     Real mu = lattice_cosine(i, push.directions);
@@ -54,8 +54,8 @@ void main() {
       int ground_terms = push.terms > 0 ? push.terms - 1 : push.terms;
       ground[g] = ground[g] * mean * series(lost[g], ground_terms);
     }
-    parts[3 * texel * GROUPS + g] = radiance[g];
-    parts[(3 * texel + 1) * GROUPS + g] = lost[g];
-    parts[(3 * texel + 2) * GROUPS + g] = ground[g];
+    WRITE(parts, 3 * texel * GROUPS + g, radiance[g]);
+    WRITE(parts, (3 * texel + 1) * GROUPS + g, lost[g]);
+    WRITE(parts, (3 * texel + 2) * GROUPS + g, ground[g]);
   }
 }

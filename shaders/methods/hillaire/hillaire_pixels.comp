@@ -6,8 +6,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = OWN + 5) restrict readonly buffer SkyBuffer { Vec4 sky_view[]; };
+layout(binding = OWN + 4, r32f) uniform restrict readonly imageBuffer view_columns;
+layout(binding = OWN + 5, rgba32f) uniform restrict readonly imageBuffer sky_view;
 layout(std430, binding = OWN + 6) restrict writeonly buffer TileBuffer { Vec4 tile[]; };
 
 #include "methods/hillaire/view.glsl"
@@ -22,11 +22,11 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
+  load_scene();
+  load_media();
   int i = push.first + int(gl_GlobalInvocationID.x);
   int n = push.rays_in_tile;
   if (i >= push.end) return;
-  load_scene();
-  load_media();
   take_out_forward_peak();
   PixelRay pixel = pixel_ray(push.first_ray + i);
   Path path = path_of_ray(push.first_ray + i, pixel);

@@ -5,8 +5,8 @@
 #include "methods/hillaire/constants.glsl"
 #include "methods/hillaire/multiple_buffers.glsl"
 
-layout(std430, binding = OWN + 4) restrict readonly buffer ColumnBuffer { Real view_columns[]; };
-layout(std430, binding = OWN + 5) restrict buffer SkyBuffer { Vec4 sky_view[]; };
+layout(binding = OWN + 4, r32f) uniform restrict readonly imageBuffer view_columns;
+layout(binding = OWN + 5, rgba32f) uniform restrict imageBuffer sky_view;
 
 #include "methods/hillaire/view.glsl"
 #include "methods/hillaire/sky_view.glsl"
@@ -20,10 +20,10 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-  int texel = push.first + int(gl_GlobalInvocationID.x);
-  if (texel >= push.end) return;
   load_scene();
   load_media();
+  int texel = push.first + int(gl_GlobalInvocationID.x);
+  if (texel >= push.end) return;
   take_out_forward_peak();
   int row = texel / SKY_VIEW_AZIMUTHS;
   SunlitRay ray = sky_ray(texel % SKY_VIEW_AZIMUTHS, row % SKY_VIEW_ELEVATIONS,
@@ -43,9 +43,9 @@ void main() {
     int plane = 0;
     UNROLL for (int c = 0; c < MEDIA; ++c) {
       if (medium(c).phase == PHASE_NONE) continue;
-      sky_view[(texel * planes + plane) * GROUPS + g] = once[c * GROUPS + g];
+      WRITE(sky_view, (texel * planes + plane) * GROUPS + g, once[c * GROUPS + g]);
       ++plane;
     }
-    sky_view[(texel * planes + plane) * GROUPS + g] = further[g];
+    WRITE(sky_view, (texel * planes + plane) * GROUPS + g, further[g]);
   }
 }

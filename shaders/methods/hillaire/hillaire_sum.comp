@@ -7,8 +7,8 @@
 layout(constant_id = 12) const int MULTIPLE_SUNS = 2;
 layout(constant_id = 13) const int MULTIPLE_ALTITUDES = 2;
 
-layout(std430, binding = OWN) restrict readonly buffer PartsBuffer { Vec4 parts[]; };
-layout(std430, binding = OWN + 1) restrict readonly buffer SunsBuffer { Vec4 suns[]; };
+layout(binding = OWN, rgba32f) uniform restrict readonly imageBuffer parts;
+layout(binding = OWN + 1, rgba32f) uniform restrict readonly imageBuffer suns;
 layout(std430, binding = OWN + 2) restrict writeonly buffer MultipleBuffer { Vec4 log_multiple[]; };
 layout(std430, binding = OWN + 3) restrict writeonly buffer IrradianceBuffer { Vec4 log_irradiance[]; };
 
@@ -22,11 +22,11 @@ void main() {
   if (texel >= push.end) return;
   int sun = texel % MULTIPLE_SUNS;
   UNROLL for (int g = 0; g < GROUPS; ++g) {
-    Vec4 radiance = parts[3 * texel * GROUPS + g] +
-                    parts[(3 * texel + 2) * GROUPS + g] * suns[2 * sun * GROUPS + g];
+    Vec4 radiance = READ(parts, 3 * texel * GROUPS + g) +
+                    READ(parts, (3 * texel + 2) * GROUPS + g) * READ(suns, 2 * sun * GROUPS + g);
     log_multiple[texel * GROUPS + g] = log(max(radiance, Vec4(1e-30)));
     if (texel < MULTIPLE_SUNS) {
-      log_irradiance[texel * GROUPS + g] = suns[(2 * texel + 1) * GROUPS + g];
+      log_irradiance[texel * GROUPS + g] = READ(suns, (2 * texel + 1) * GROUPS + g);
     }
   }
 }

@@ -17,15 +17,15 @@ MultiplePosition multiple_position(Real h, Real mu_sun) {
 Vec4 multiple_scattering(MultiplePosition position, int group) {
   int low = position.altitude.node * MULTIPLE_SUNS + position.sun.node;
   int high = low + MULTIPLE_SUNS;
-  return exp(mix(mix(log_multiple[low * GROUPS + group], log_multiple[(low + 1) * GROUPS + group],
+  return exp(mix(mix(READ(log_multiple, low * GROUPS + group), READ(log_multiple, (low + 1) * GROUPS + group),
                      position.sun.fraction),
-                 mix(log_multiple[high * GROUPS + group],
-                     log_multiple[(high + 1) * GROUPS + group], position.sun.fraction),
+                 mix(READ(log_multiple, high * GROUPS + group),
+                     READ(log_multiple, (high + 1) * GROUPS + group), position.sun.fraction),
                  position.altitude.fraction));
 }
 
 Vec4 diffuse_irradiance(Real mu_sun, int group) {
   NodePosition sun = node_position(table_sun_coordinate(mu_sun), MULTIPLE_SUNS);
-  return exp(mix(log_irradiance[sun.node * GROUPS + group],
-                 log_irradiance[(sun.node + 1) * GROUPS + group], sun.fraction));
+  return exp(mix(READ(log_irradiance, sun.node * GROUPS + group),
+                 READ(log_irradiance, (sun.node + 1) * GROUPS + group), sun.fraction));
 }

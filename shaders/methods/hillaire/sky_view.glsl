@@ -66,8 +66,8 @@ Vec4 ratio_at_stop(SkyPosition position, int stop, int planes, int plane, int gr
   int low = ((row * SKY_VIEW_AZIMUTHS + position.azimuth.node) * planes + plane) * GROUPS + group;
   int high = low + SKY_VIEW_AZIMUTHS * planes * GROUPS;
   int next = planes * GROUPS;
-  return mix(mix(sky_view[low], sky_view[low + next], position.azimuth.fraction),
-             mix(sky_view[high], sky_view[high + next], position.azimuth.fraction),
+  return mix(mix(READ(sky_view, low), READ(sky_view, low + next), position.azimuth.fraction),
+             mix(READ(sky_view, high), READ(sky_view, high + next), position.azimuth.fraction),
              position.elevation.fraction);
 }
 

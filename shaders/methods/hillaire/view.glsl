@@ -157,8 +157,8 @@ void view_columns_of(SunlitRay ray, OUT_ARRAY(Real, column, MEDIA_SIZE)) {
       elevation_coordinate(ray.altitude_km, ray.mu, ray.meets_ground), VIEW_NODES);
   int node = position.node + (ray.meets_ground ? VIEW_NODES : 0);
   UNROLL for (int c = 0; c < MEDIA; ++c) {
-    column[c] = ray.length_km > 0.0 ? mix(view_columns[node * MEDIA + c],
-                                          view_columns[(node + 1) * MEDIA + c], position.fraction)
+    column[c] = ray.length_km > 0.0 ? mix(READ_REAL(view_columns, node * MEDIA + c),
+                                          READ_REAL(view_columns, (node + 1) * MEDIA + c), position.fraction)
                                     : 0.0;
   }
 }

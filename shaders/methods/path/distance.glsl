@@ -29,7 +29,7 @@ Real light_ahead(Walk walk, Leg leg, bool back, Real from_lowest_km, Real h) {
   Real mu_sun = (radius * sun.direction.z + t * dot(walk.direction, sun.direction)) /
                 (scene.planet_radius_km + h);
   if (walk.vertices == 0) return sky_light(sky_place(h, mu_sun));
-  return path_guide[light_offset() + light_place(h, mu_sun)];
+  return READ_REAL(path_guide, light_offset() + light_place(h, mu_sun));
 }
 
 // A choice among segments by what they scatter of a walk's light, summed over the wavelengths: for each

@@ -14,16 +14,16 @@ CONSTANT int SKY_ELEVATIONS = 16;
 CONSTANT int SKY_AZIMUTHS = 6;
 CONSTANT int SKY_CELLS = SKY_ELEVATIONS * SKY_AZIMUTHS;
 
-Real guide_scale_height_km() { return path_guide[0]; }
-Real guide_sun_share() { return path_guide[1]; }
-Real guide_peak_share(int c) { return path_guide[2 + c]; }
-Real phase_cell_edge(int c, int edge) { return path_guide[2 + MEDIA + c * (PHASE_CELLS + 1) + edge]; }
+Real guide_scale_height_km() { return READ_REAL(path_guide, 0); }
+Real guide_sun_share() { return READ_REAL(path_guide, 1); }
+Real guide_peak_share(int c) { return READ_REAL(path_guide, 2 + c); }
+Real phase_cell_edge(int c, int edge) { return READ_REAL(path_guide, 2 + MEDIA + c * (PHASE_CELLS + 1) + edge); }
 int light_offset() { return 2 + MEDIA + MEDIA * (PHASE_CELLS + 1); }
 int sky_offset() { return light_offset() + LIGHT_ALTITUDES * LIGHT_SUNS; }
-Real sky_light(int place) { return path_guide[sky_offset() + place]; }
+Real sky_light(int place) { return READ_REAL(path_guide, sky_offset() + place); }
 // Share of the cells before a cell in the sky of a place.
 Real sky_share_before(int place, int cell) {
-  return path_guide[sky_offset() + SKY_ALTITUDES * SKY_SUNS + place * (SKY_CELLS + 1) + cell];
+  return READ_REAL(path_guide, sky_offset() + SKY_ALTITUDES * SKY_SUNS + place * (SKY_CELLS + 1) + cell);
 }
 
 // Coordinates from 0 to 1. Suns are spread about the angle at which the shell's shadow ends.
