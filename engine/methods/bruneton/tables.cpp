@@ -173,9 +173,9 @@ SourceTables::SourceTables(vulkan::Device& device, const ScatteringGrid& grid_, 
                               "the table of irradiance")) {}
 
 vulkan::Specialization table_constants(const UploadedScene& scene, const Setup& setup) {
-  constexpr std::size_t projection = 7, near_sun = 8, many_suns = 9;
+  constexpr std::size_t near_sun = 8, many_suns = 9;
   vulkan::Specialization constants = scene.constants();
-  constants[projection] = constants[near_sun] = constants[many_suns] = 0;
+  constants[near_sun] = constants[many_suns] = 0;
   constants.push_back(setup.logarithmic);
   constants.push_back(0);
   constants.push_back(0);
@@ -300,23 +300,51 @@ void TableMaker::find_first_order(const Work& work, const UploadedRays& rays,
   }
 }
 
-void TableMaker::find_source(const Work& work, const UploadedRays& rays,
+/// How light is redistributed between directions at each altitude: the same for all orders, and
+/// kept where there is room.
+struct TableMaker::Shares {
+  Shares(const Work& work, const UploadedRays& rays)
+      : pairs(std::int64_t{1} * rays.rays.directions() * work.setup.source_zeniths *
+              work.setup.source_azimuths),
+        slice_bytes(aligned(static_cast<std::size_t>(pairs) * work.scene.groups() * vec4_bytes,
+                            work.tracer.device.limits().storage_alignment)),
+        kept(slice_bytes * rays.rays.grid.altitudes <= most_kept_bytes),
+        buffer(table_buffer(work.tracer.device,
+                            slice_bytes / vec4_bytes * (kept ? rays.rays.grid.altitudes : 1),
+                            "source_zeniths", "the redistribution between directions")) {}
+
+  vulkan::Binding slice(int altitude) const {
+    return {buffer, kept ? altitude * slice_bytes : 0, slice_bytes};
+  }
+
+  static constexpr std::size_t most_kept_bytes = 64 << 20;
+  std::int64_t pairs;  ///< of directions
+  std::size_t slice_bytes;
+  bool kept;
+  vulkan::Buffer buffer;
+  bool filled = false;  ///< with all that are kept
+
+ private:
+  static std::size_t aligned(std::size_t bytes, std::size_t alignment) {
+    return (bytes + alignment - 1) / alignment * alignment;
+  }
+};
+
+void TableMaker::find_source(const Work& work, const UploadedRays& rays, Shares& shares,
                              const vulkan::Buffer& radiance, const vulkan::Buffer& to) {
   const Setup& setup = work.setup;
-  int incoming = rays.rays.directions();
   int outgoing = setup.source_zeniths * setup.source_azimuths;
-  int groups = work.scene.groups();
-  vulkan::Buffer shares =
-      table_buffer(work.tracer.device, std::size_t{1} * incoming * outgoing * groups,
-                   "source_zeniths", "the redistribution between directions");
   for (int altitude = 0; altitude < rays.rays.grid.altitudes; ++altitude) {
-    work.fill(redistribute_, rays, {shares}, std::int64_t{1} * incoming * outgoing,
-              for_redistribution(work.scene.media()),
-              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
-    work.fill(source_, rays, {shares, radiance, to},
-              std::int64_t{1} * outgoing * rays.rays.grid.suns, for_source(incoming, groups),
-              SlicePush{0, 0, altitude, setup.source_zeniths, setup.source_azimuths});
+    const SlicePush push{0, 0, altitude, setup.source_zeniths, setup.source_azimuths};
+    const vulkan::Binding slice = shares.slice(altitude);
+    if (!shares.filled)
+      work.fill(redistribute_, rays, {slice}, shares.pairs,
+                for_redistribution(work.scene.media()), push);
+    work.fill(source_, rays, {slice, radiance, to},
+              std::int64_t{1} * outgoing * rays.rays.grid.suns,
+              for_source(rays.rays.directions(), work.scene.groups()), push);
   }
+  shares.filled = shares.kept;
 }
 
 void TableMaker::find_irradiance(const Work& work, const UploadedRays& rays,
@@ -450,10 +478,11 @@ std::shared_ptr<const SourceTables> TableMaker::make_source(Work work) {
   OrderSum irradiance(work.tracer, tables->irradiance, {groups, 1, setup.suns, 1, 1}, setup,
                       later.chunks);
 
+  Shares shares(work, rays);
   find_first_order(work, rays, radiance);
   for (int order = 2;; ++order) {
     find_irradiance(work, rays, radiance, irradiance.order);
-    find_source(work, rays, radiance, source.order);
+    find_source(work, rays, shares, radiance, source.order);
     for (OrderSum* sum : {&irradiance, &source}) {
       add_or_close(work, rays, *sum, closing, Leave::one_order);
       if (auto chunk = later.begins_after(order, last)) sum->keep(*chunk);

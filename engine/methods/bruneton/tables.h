@@ -89,8 +89,9 @@ class TableMaker {
   std::shared_ptr<const SingleTable> make_single(Work work);
   UploadedRays cut(const Work& work, const Rays& rays, int cells);
   void find_first_order(const Work& work, const UploadedRays& rays, const vulkan::Buffer& to);
-  void find_source(const Work& work, const UploadedRays& rays, const vulkan::Buffer& radiance,
-                   const vulkan::Buffer& to);
+  struct Shares;
+  void find_source(const Work& work, const UploadedRays& rays, Shares& shares,
+                   const vulkan::Buffer& radiance, const vulkan::Buffer& to);
   void find_irradiance(const Work& work, const UploadedRays& rays,
                        const vulkan::Buffer& radiance, const vulkan::Buffer& to);
   struct OrderSum;
