@@ -19,12 +19,11 @@ using nlohmann::json;
 using Samples = std::vector<std::vector<double>>;
 using Options = std::map<std::string, double>;
 
-/// Tables as small as still have something to interpolate. Order one is no table, and is
-/// sampled as finely as thin layers ask; orders are as many as the air asks, for where a few
-/// are all that a geometric series goes by, it makes much of their last digits.
+/// Tables as small as still have something to interpolate. Orders are as many as the air asks,
+/// for where a few are all that a geometric series goes by, it makes much of their last digits.
 const Options& smallest_options(const std::string& method) {
   static const std::map<std::string, Options> options{
-      {"nishita", {{"view_samples", 256}, {"light_samples", 16}}},
+      {"nishita", {{"view_samples", 16}, {"light_samples", 8}}},
       {"raymarch", {}},
       {"hillaire",
        {{"multiple_altitudes", 8},
@@ -68,6 +67,9 @@ json with_method(json document, const MethodDescription& method,
   choice["name"] = method.name;
   if (settings.usual_options) return document;
   for (const auto& [name, value] : smallest_options(method.name)) choice[name] = value;
+  // So many ask thin layers for, not to jump from sample to sample.
+  if (settings.nudge && method.name == "nishita")
+    choice.update({{"view_samples", 256}, {"light_samples", 16}});
   return document;
 }
 

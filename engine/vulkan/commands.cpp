@@ -84,32 +84,37 @@ std::string text_of(const Binding& binding) {
          " of a buffer of " + std::to_string(binding.buffer.size());
 }
 
-void require(bool fits, const std::string& what) {
-  if (!fits) throw std::invalid_argument(what);
+/// @param what  tells it, and is asked only then: every dispatch requires dozens of things
+template <typename Text>
+void require(bool fits, Text what) {
+  if (!fits) throw std::invalid_argument(what());
 }
 
 void require_inside(const Binding& binding) {
   const std::size_t size = size_of(binding), whole = binding.buffer.size();
   require(size > 0 && binding.offset <= whole && size <= whole - binding.offset,
-          text_of(binding) + " is not a part of it");
+          [&] { return text_of(binding) + " is not a part of it"; });
 }
 
 void require_bindable(const Binding& binding, const Limits& limits) {
   require_inside(binding);
-  require(binding.offset % limits.storage_alignment == 0,
-          text_of(binding) + ": the device binds at multiples of " +
-              std::to_string(limits.storage_alignment));
-  require(size_of(binding) <= limits.max_storage_range,
-          text_of(binding) + ": the device binds at most " +
-              std::to_string(limits.max_storage_range) + " bytes");
+  require(binding.offset % limits.storage_alignment == 0, [&] {
+    return text_of(binding) + ": the device binds at multiples of " +
+           std::to_string(limits.storage_alignment);
+  });
+  require(size_of(binding) <= limits.max_storage_range, [&] {
+    return text_of(binding) + ": the device binds at most " +
+           std::to_string(limits.max_storage_range) + " bytes";
+  });
 }
 
 void require_groups(const Groups& groups, const Limits& limits) {
   const std::array<std::uint32_t, 3> counts{groups.x, groups.y, groups.z};
   for (std::size_t i = 0; i < 3; ++i)
-    require(counts[i] > 0 && counts[i] <= limits.max_groups[i],
-            "a dispatch of " + std::to_string(counts[i]) + " groups along " + "xyz"[i] +
-                "; the device allows 1 to " + std::to_string(limits.max_groups[i]));
+    require(counts[i] > 0 && counts[i] <= limits.max_groups[i], [&] {
+      return "a dispatch of " + std::to_string(counts[i]) + " groups along " + "xyz"[i] +
+             "; the device allows 1 to " + std::to_string(limits.max_groups[i]);
+    });
 }
 
 }  // namespace
@@ -336,12 +341,14 @@ void Commands::dispatch(const Kernel& kernel, const Specialization& specializati
                         Groups groups, Order order) {
   Kernel::Program& program = *kernel.program();
   const Limits& limits = state_->core->limits;
-  require(bindings.size() == program.bindings,
-          "a kernel of " + std::to_string(program.bindings) + " buffers was given " +
-              std::to_string(bindings.size()));
-  require(push.size() == program.push_bytes,
-          "a kernel of " + std::to_string(program.push_bytes) +
-              " bytes of push constants was given " + std::to_string(push.size()));
+  require(bindings.size() == program.bindings, [&] {
+    return "a kernel of " + std::to_string(program.bindings) + " buffers was given " +
+           std::to_string(bindings.size());
+  });
+  require(push.size() == program.push_bytes, [&] {
+    return "a kernel of " + std::to_string(program.push_bytes) +
+           " bytes of push constants was given " + std::to_string(push.size());
+  });
   for (const Binding& binding : bindings) require_bindable(binding, limits);
   require_groups(groups, limits);
   const VkDescriptorSet set = state_->bind(program, bindings);
@@ -363,7 +370,8 @@ void Commands::dispatch(const Kernel& kernel, const Specialization& specializati
 void Commands::copy(const Binding& from, const Binding& to, Order order) {
   require_inside(from);
   require_inside(to);
-  require(size_of(from) == size_of(to), "a copy of " + text_of(from) + " to " + text_of(to));
+  require(size_of(from) == size_of(to),
+          [&] { return "a copy of " + text_of(from) + " to " + text_of(to); });
   state_->keep(from.buffer.allocation());
   state_->keep(to.buffer.allocation());
   const VkBufferCopy region{from.offset, to.offset, size_of(from)};
@@ -376,7 +384,7 @@ void Commands::copy(const Binding& from, const Binding& to, Order order) {
 void Commands::fill(const Binding& to, std::uint32_t value, Order order) {
   require_inside(to);
   require(to.offset % 4 == 0 && size_of(to) % 4 == 0,
-          text_of(to) + ": a fill takes multiples of 4");
+          [&] { return text_of(to) + ": a fill takes multiples of 4"; });
   state_->keep(to.buffer.allocation());
   state_->add(order, [state = state_.get(), to = *to.buffer.allocation()->buffer,
                       offset = to.offset, size = size_of(to),
