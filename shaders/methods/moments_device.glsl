@@ -6,8 +6,8 @@
 
 layout(constant_id = 12) const int AZIMUTHS = 6;         // of a ray in half a turn
 const int LIGHT_SLOTS = SERIES + 1;                      // of a ray's light: they and the aureole's
-// Ratios of moments are packed as halves, those of two slots in one load: on software devices loads are most
-// of the work, and a ratio's rounding is a part in 4000 of its own term.
+// Ratios of moments are packed as halves, those of two slots in one texel: a ratio's rounding is a part in 4000 of
+// its own term.
 const int ROW_SLOTS = (SERIES + 1) / 2 + 1;              // terms of a row in pairs, and the logarithm
 const int ORDER_SLOTS = (SLOTS - 1) / 2 + 1;             // the logarithm, then ratios 1, 2, ... in pairs
 

@@ -1,5 +1,5 @@
 // Columns (km of density 1) along rays, by quadrature. They do not depend on the wavelength, and eight
-// well-placed nodes cost less than the bilinear fetch of a table that is a hundred times worse.
+// well-placed nodes are a hundred times as good as a bilinear fetch from a table.
 //
 // Every ray is cut at its lowest point into parts that are looked at from their low end upwards:
 // altitude h, zenith cosine mu >= 0. There the distance d is d = B t / sqrt(1 - t^2), t uniform: linear

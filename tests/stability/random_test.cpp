@@ -26,15 +26,23 @@ EngineOptions with_many_kernels() {
   return options;
 }
 
-/// Of forms that are whatever a document can say two of the methods, in turns, for their
-/// kernels are compiled for that form alone and take most of the time; no numbers are changed
-/// there, as what a change is worth is told by what other methods make of it.
+/// Half of the methods each, in turns; all where a number is changed, as what a change is worth
+/// is told by what the others make of it. Of forms that are whatever a document can say two,
+/// and no changes, for their kernels are compiled for that form alone and take most of the
+/// time.
 RandomTrialSettings settings_of(std::uint64_t seed) {
   const std::uint64_t form = seed / scenes_of_a_form;
-  if (form % 4 != 3) return {.nudge = seed % 40 == 0};
-  const std::size_t count = methods().size(), turn = form / 4;
-  const std::size_t first = turn % count, step = 1 + turn / count % (count - 1);
-  return {.methods = {methods()[first].name, methods()[(first + step) % count].name}};
+  const std::size_t count = methods().size();
+  if (form % 4 == 3) {
+    const std::size_t turn = form / 4, first = turn % count,
+                      step = 1 + turn / count % (count - 1);
+    return {.methods = {methods()[first].name, methods()[(first + step) % count].name}};
+  }
+  if (seed % 40 == 0) return {.nudge = true};
+  RandomTrialSettings settings;
+  for (std::size_t i = seed % 2; i < count; i += 2)
+    settings.methods.push_back(methods()[i].name);
+  return settings;
 }
 
 /// On one device, for most of the time its kernels are being made, which the scenes share.
