@@ -29,9 +29,9 @@ void main() {
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     if (!ends_on_ground(path)) continue;
     int ground = (GROUND * GROUPS + g) * n + i;
-    WRITE(tile, ground, READ(tile, ground) +
-                   ground_seen(left_by_ground(diffuse_irradiance(mu_s, g), g),
-                               READ(tile, (TRANSMITTANCE * GROUPS + g) * n + i)));
+    WRITE(tile, ground,
+          READ(tile, ground) + ground_seen(left_by_ground(diffuse_irradiance(mu_s, g), g),
+                                           READ(tile, (TRANSMITTANCE * GROUPS + g) * n + i)));
   }
   if (path.cut || !(path.length_km > 0.0)) return;
   ViewPosition at = view_position(path);

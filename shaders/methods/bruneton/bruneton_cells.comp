@@ -19,8 +19,9 @@ void keep_point(int entry, Real h, Real mu, Real t) {
   Real inverse_radius = 1.0 / (scene.planet_radius_km + altitude);
   Real mu_there = clamp((r * mu + t) * inverse_radius, -1.0, 1.0);
   Real sine = clamp(r * sqrt(max(1.0 - mu * mu, 0.0)) * inverse_radius, 0.0, 1.0);
-  WRITE(cell_values, entry, Vec4(node_coordinate(altitude_share(source, altitude), source.altitudes),
-           node_coordinate(acos(mu_there) / PI, source.zeniths), t, inverse_radius));
+  WRITE(cell_values, entry,
+        Vec4(node_coordinate(altitude_share(source, altitude), source.altitudes),
+             node_coordinate(acos(mu_there) / PI, source.zeniths), t, inverse_radius));
   WRITE(cell_values, entry + 1, Vec4(mu_there, sine, 0.0, 0.0));
 }
 
