@@ -121,11 +121,16 @@ struct EngineFaults {
   std::size_t memory_bytes = 0;  ///< of all buffers together; 0: what there is
 };
 
+/// What of a method's error is less where an option is larger.
+enum class ErrorSource { none, quadrature, tables, orders, walks };
+
 /// One thing a method can be told, as data: the schema, the page and the documentation read it.
 struct MethodOption {
   std::string name, title, description, unit;
   double minimum = 0, maximum = 0, default_value = 0;
   bool integer = true, logarithmic = false;
+  ErrorSource lessens = ErrorSource::none;
+  std::optional<double> finest = {};  ///< of a switch; of what counts none: more is finer
 };
 
 /// What of a scene decides whether it comes near a method's limits.

@@ -83,15 +83,18 @@ PrecisionTrial::PrecisionTrial(const std::string& device)
 
 PrecisionPoint PrecisionTrial::measure(const Scene& scene, const std::string& name,
                                        const Watch& watch) {
-  const MethodDescription& method = described(name);
+  return measure(scene, plan_of(scene, described(name)), watch);
+}
+
+PrecisionPoint PrecisionTrial::measure(const Scene& scene, const Plan& plan,
+                                       const Watch& watch) {
   const std::vector<Direction> directions = sample_directions(scene, precision_rays);
-  const Plan plan = plan_of(scene, method);
   std::array<Samples, 4> values;
   for (std::size_t i = 0; i < engines_.size(); ++i)
     values[i] = engines_[i].radiance(scene, directions, false, plan, watch).radiance;
   PrecisionPoint worst;
   for (std::size_t i = 1; i < engines_.size(); ++i) {
-    PrecisionPoint point = method.random
+    PrecisionPoint point = described(plan.method).random
                                ? of_walks(values[i], values[0])
                                : PrecisionPoint{measure_error(values[i], values[0]).error, 0};
     if (std::abs(point.error) > std::abs(worst.error)) worst = point;

@@ -30,6 +30,8 @@ class PrecisionTrial {
   /// The method at its defaults along rays of the scene, at its wavelengths.
   /// @throws OverLimit, Cancelled
   PrecisionPoint measure(const Scene& scene, const std::string& method, const Watch& watch);
+  /// By a plan.
+  PrecisionPoint measure(const Scene& scene, const Plan& plan, const Watch& watch);
 
  private:
   std::array<Engine, 4> engines_;

@@ -21,7 +21,8 @@ struct RandomTrialSettings {
 /// nudged {"nudged": its pointer, "jumps": {method: of all rays the largest change over what is
 /// allowed}}. Allowed are twice the largest change that order one in double makes on any ray,
 /// or, of methods of all orders, that another of them makes, and 1e-3; rays on which order one
-/// jumps itself, at horizons and at the edge of the shadow, are left out.
+/// jumps itself, at horizons and at the edge of the shadow, are left out. What is over it is
+/// tried by the method's finest setting: "jumps_at_finest".
 nlohmann::json random_trial(Engine& engine, std::uint64_t seed,
                             const RandomTrialSettings& settings, const Watch& watch = {});
 

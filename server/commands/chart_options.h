@@ -1,4 +1,4 @@
-// What chart and bench can be told alike.
+// What chart, bench and attribute can be told alike.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,9 @@
 
 namespace cyanometer {
 
+/// @param goal, folder  defaults; outlive the command
+void add_reference_options(CLI::App& command, ReferenceGoal& goal,
+                           std::filesystem::path& folder);
 /// @param settings  defaults; outlives the command
 void add_chart_options(CLI::App& command, ChartSettings& settings);
 

@@ -147,4 +147,17 @@ json explanation_document(const std::vector<Worth>& ingredients) {
   return out;
 }
 
+json attribution_document(const Attribution& attribution) {
+  json out = plan_document(attribution.plan);
+  const EstimatedError& error = attribution.error;
+  out.update({{"error", error.measure.error},
+              {"error_95", {error.low, error.high}},
+              {"reference_noise", attribution.reference_noise},
+              {"shares", json::array()}});
+  for (const ErrorShare& share : attribution.shares)
+    out["shares"].push_back(
+        {{"cause", share.cause}, {"error", share.error}, {"how", share.how}});
+  return out;
+}
+
 }  // namespace cyanometer

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "engine/accuracy/attribution.h"
 #include "engine/accuracy/comparison.h"
 #include "engine/accuracy/ingredients.h"
 #include "engine/engine.h"
@@ -38,5 +39,8 @@ nlohmann::json comparison_document(const Comparison& comparison);
 
 /// The answer of /v1/explain.
 nlohmann::json explanation_document(const std::vector<Worth>& ingredients);
+/// {"method", "options", "wavelengths_nm", "error", "error_95", "reference_noise", "shares":
+/// [{"cause", "error", "how"}]}
+nlohmann::json attribution_document(const Attribution& attribution);
 
 }  // namespace cyanometer

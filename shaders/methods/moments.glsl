@@ -367,14 +367,13 @@ Real chebyshev_weight(Real point, int points, Real x) {
 // Kept are the logarithm of the lowest moment, the mean radiance times the normalisation, which changes
 // by decades through twilight, and the ratios of all others to it, which don't.
 
-CONSTANT Real DARKEST = 1e-16;  // per unit irradiance; what is less counts as this
+CONSTANT Real DARKEST = 1e-27;  // per unit irradiance; what is less counts as this
+CONSTANT Real DARK = 1e-20;     // what that comes to, over all nodes of a ray and hundreds of orders
 
 Vec4 moment_logarithm(Vec4 moment) { return log(max(moment, Vec4(DARKEST))); }
 
-// The light that a logarithm stands for; what counted as the darkest is none.
-Vec4 light_of_logarithm(Vec4 logarithm) {
-  return max(exp(logarithm) - Vec4(2.0 * DARKEST), Vec4(0.0));
-}
+// The light that a logarithm stands for; what the darkest comes to is none.
+Vec4 light_of_logarithm(Vec4 logarithm) { return max(exp(logarithm) - Vec4(DARK), Vec4(0.0)); }
 
 Vec4 moment_ratio(Vec4 moment, Vec4 lowest) {
   return Vec4(lowest.x > DARKEST ? moment.x / lowest.x : 0.0,

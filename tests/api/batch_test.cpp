@@ -145,7 +145,7 @@ TEST(Batch, ShardsAreTheWholeOnceAndOnlyOnce) {
   EXPECT_THAT(bench.run(), ::testing::HasSubstr("0 rendered, 7 were there"));
 }
 
-TEST(Batch, IsCancelledAndGoesOn) {
+TEST(Interrupted, ABatchEndsAndGoesOnLater) {
   json scene = tiny_scene();
   scene["image"] = {{"width", 160}, {"height", 90}};
   for (const int signal : {SIGINT, SIGTERM}) {

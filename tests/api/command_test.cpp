@@ -119,6 +119,18 @@ TEST(Command, ExplainPrintsATableOrTheDocument) {
   EXPECT_TRUE(json::parse(document.out()).contains("curvature"));
 }
 
+TEST(Command, AttributePrintsATableOrTheDocument) {
+  const std::string scene =
+      R"({"method":{"name":"nishita","scattering_orders":1,"view_samples":8},
+          "spectrum":{"wavelengths_nm":[680,550,440]}})";
+  Program table({"attribute", "-", "--rays", "16"}, scene);
+  EXPECT_EQ(table.wait(), 0) << table.err();
+  EXPECT_THAT(table.out(), ::testing::HasSubstr("view_samples 8 to 32"));
+  Program document({"attribute", "-", "--rays", "16", "--json"}, scene);
+  EXPECT_EQ(document.wait(), 0) << document.err();
+  EXPECT_EQ(json::parse(document.out()).at("shares").at(0).at("cause"), "quadrature");
+}
+
 /// A scene of small tables of `bruneton`.
 json small_tables() {
   const json method{{"name", "bruneton"}, {"altitudes", 4},       {"zeniths", 6},
@@ -181,7 +193,7 @@ TEST(Command, RenderGivesWhatTheServerGives) {
             client().Post("/v1/render", small_scene().dump(), "application/json")->body);
 }
 
-TEST(Command, RenderIsCancelledBySigint) {
+TEST(Interrupted, ARenderEndsAtSigint) {
   Program run({"render", "-", "-o", "-"}, long_scene().dump());
   std::this_thread::sleep_for(1500ms);
   const auto start = std::chrono::steady_clock::now();

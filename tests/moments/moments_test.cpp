@@ -502,5 +502,17 @@ TEST(Moments, AreNotCutShortByTheirLoops) {
   EXPECT_LT(measure_error(at(16), at(8)).error, 0.02);
 }
 
+TEST(Moments, NothingIsSeenThroughAirThatHidesEverything) {
+  Scene scene = clear_scene(0, 40);
+  scene.atmosphere.constituents["cloud"] = {
+      TentProfile{40, 10}, Particles{ParticleCoefficients{1e4, 3e3}, HenyeyGreenstein{0.5}}};
+  for (double degree : {2, 4}) {
+    scene.method.options["degree"] = degree;
+    for (const auto& ray :
+         device().radiance(scene, {{90, 0}, {30, 0}, {2, 90}}, false).radiance)
+      for (double value : ray) EXPECT_EQ(value, 0) << degree;
+  }
+}
+
 }  // namespace
 }  // namespace cyanometer

@@ -355,5 +355,20 @@ TEST(PathTracing, OfALargeSunIsTheMeanOverItsDisc) {
   expect_normal(deviations, 2 * slices, 0.3);
 }
 
+/// A layer far above all that scatters, under a sun so high that all light passes it once.
+TEST(PathTracing, StandardErrorsAreAsLargeAShareOfNextToNoLight) {
+  const auto shares = [](double depth) {
+    Scene scene = earth(0, 90, 256);
+    scene.atmosphere.constituents["shade"] = {TentProfile{95, 2},
+                                              Absorber{AbsorptionCoefficient{depth / 2}}};
+    const Radiances seen = device().radiance(scene, spread(8, 20, 85), false);
+    double sum = 0;
+    for (std::size_t i = 0; i < seen.radiance.size(); ++i)
+      sum += (*seen.standard_error)[i][0] / seen.radiance[i][0];
+    return sum / static_cast<double>(seen.radiance.size());
+  };
+  EXPECT_NEAR(shares(60) / shares(0), 1, 0.3);  // exp(-60): its square is none in a float
+}
+
 }  // namespace
 }  // namespace cyanometer

@@ -114,7 +114,7 @@ class Bruneton final : public Method {
 };
 
 MethodOption nodes(std::string name, std::string title, std::string description, int least,
-                   int most, int usual) {
+                   int most, int usual, ErrorSource lessens) {
   return {.name = std::move(name),
           .title = std::move(title),
           .description = std::move(description),
@@ -123,7 +123,10 @@ MethodOption nodes(std::string name, std::string title, std::string description,
           .maximum = static_cast<double>(most),
           .default_value = static_cast<double>(usual),
           .integer = true,
-          .logarithmic = least > 0 && most > 4};
+          .logarithmic = least > 0 && most > 4,
+          .lessens = lessens,
+          // The defaults of switches are the finest that there is.
+          .finest = most > 2 ? std::nullopt : std::optional<double>(usual)};
 }
 
 MethodDescription describe() {
@@ -165,44 +168,51 @@ MethodDescription describe() {
                  "Of all orders those that are computed; the others follow from the last of "
                  "them. 0: as many as light takes to get through the air, five at least; 1 "
                  "counts as 2.",
-                 0, 64, 0),
-           nodes("altitudes", "Altitudes", "Nodes from the ground to the top.", 4, 128, 16),
+                 0, 64, 0, ErrorSource::orders),
+           nodes("altitudes", "Altitudes", "Nodes from the ground to the top.", 4, 128, 16,
+                 ErrorSource::tables),
            nodes("zeniths", "Zenith nodes",
                  "Directions of view on each side of the horizon, and of the integral over "
                  "all directions.",
-                 4, 128, 24),
+                 4, 128, 24, ErrorSource::tables),
            nodes("suns", "Sun nodes",
                  "Elevations of the sun, from the zenith to where it lights no air.", 4, 256,
-                 32),
-           nodes("azimuths", "Azimuth nodes", "From the sun to the opposite.", 3, 65, 13),
+                 32, ErrorSource::tables),
+           nodes("azimuths", "Azimuth nodes", "From the sun to the opposite.", 3, 65, 13,
+                 ErrorSource::tables),
            nodes("source_zeniths", "Source zeniths",
-                 "Directions, even in angle, of what the air scatters.", 3, 129, 13),
-           nodes("source_azimuths", "Source azimuths", "Of what the air scatters.", 3, 65, 7),
+                 "Directions, even in angle, of what the air scatters.", 3, 129, 13,
+                 ErrorSource::tables),
+           nodes("source_azimuths", "Source azimuths", "Of what the air scatters.", 3, 65, 7,
+                 ErrorSource::tables),
            nodes("refinement", "Refinement",
                  "The source is interpolated by cubics on a grid so many times finer in each "
                  "coordinate, before it is read linearly; 1 leaves that out.",
-                 1, 6, 2),
-           nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 20),
+                 1, 6, 2, ErrorSource::tables),
+           nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 20,
+                 ErrorSource::quadrature),
            nodes("view_samples", "View samples", "Of a path that is gathered for the view.", 2,
-                 256, 64),
+                 256, 64, ErrorSource::quadrature),
            nodes("view_nodes", "View nodes",
                  "Gauss nodes on each smooth piece of a path in the first order.", 1,
-                 Physics<float>::MOST_GAUSS_NODES, 6),
+                 Physics<float>::MOST_GAUSS_NODES, 6, ErrorSource::quadrature),
            nodes("mapping", "Mapping",
                  "Of tables: 0 linear; 1 the paper's, by distances to the horizon and the top; "
                  "2 gathered at the horizon and the terminator.",
-                 0, 2, 2),
+                 0, 2, 2, ErrorSource::tables),
            nodes("horizon", "Split at the horizon",
-                 "1: nothing is interpolated from the sky to the ground.", 0, 1, 1),
-           nodes("logarithmic", "Of logarithms", "1: logarithms are interpolated.", 0, 1, 1),
+                 "1: nothing is interpolated from the sky to the ground.", 0, 1, 1,
+                 ErrorSource::tables),
+           nodes("logarithmic", "Of logarithms", "1: logarithms are interpolated.", 0, 1, 1,
+                 ErrorSource::tables),
            nodes("gather", "Gather for the view",
                  "1: a small table of the view is integrated from the source for the camera's "
                  "altitude and sun; 0: the four-dimensional table is read.",
-                 0, 1, 1),
+                 0, 1, 1, ErrorSource::tables),
            nodes("first_order", "First order",
                  "0: by quadrature; 1: from a table of each constituent; 2: particles in the "
                  "colours of the molecules' table.",
-                 0, 2, 0)},
+                 0, 2, 0, ErrorSource::tables)},
       .variations = {{{"altitudes", 8}, {"zeniths", 12}, {"suns", 16}, {"azimuths", 7}},
                      {{"gather", 0}},
                      {{"mapping", 1}},

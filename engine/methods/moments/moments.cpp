@@ -399,7 +399,7 @@ class Moments final : public Method {
 };
 
 MethodOption whole(std::string name, std::string title, std::string text, double minimum,
-                   double maximum, double usual) {
+                   double maximum, double usual, ErrorSource lessens) {
   return {.name = std::move(name),
           .title = std::move(title),
           .description = std::move(text),
@@ -408,7 +408,9 @@ MethodOption whole(std::string name, std::string title, std::string text, double
           .maximum = maximum,
           .default_value = usual,
           .integer = true,
-          .logarithmic = minimum > 0};
+          .logarithmic = minimum > 0,
+          .lessens = lessens,
+          .finest = maximum > 1 ? std::nullopt : std::optional(maximum)};
 }
 
 /// All options, those of the tables as they follow from the scene.
@@ -476,59 +478,62 @@ const MethodDescription& moments_description() {
           {whole("degree", "Degree",
                  "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "
                  "in clear air and up to 8 in haze.",
-                 0, Physics<float>::MOST_DEGREE, 0),
+                 0, Physics<float>::MOST_DEGREE, 0, ErrorSource::tables),
            whole("altitudes", "Altitudes",
                  "Nodes of the tables over altitude; 0 takes what suits the degree, and more "
                  "where the air is thick.",
-                 0, 32, 0),
+                 0, 32, 0, ErrorSource::tables),
            whole("suns", "Suns",
                  "Nodes of the tables over the sun's elevation; 0 takes what suits the degree.",
-                 0, 64, 0),
+                 0, 64, 0, ErrorSource::tables),
            whole("directions", "Directions",
                  "Zenith angles above the horizon of the rays that gather light, 0 for what "
                  "suits the degree; below it are half as many.",
-                 0, 24, 0),
+                 0, 24, 0, ErrorSource::quadrature),
            whole("azimuths", "Azimuths",
                  "Azimuths of those rays, in half a turn; 0 takes what suits the degree.", 0,
-                 24, 0),
+                 24, 0, ErrorSource::quadrature),
            whole("steps", "Steps",
                  "Gauss nodes on each of those rays; 0 takes what suits the degree, and more "
                  "where the air is thick.",
-                 0, 32, 0),
+                 0, 32, 0, ErrorSource::quadrature),
            whole(
                "orders", "Orders",
                "Orders that are traced; all later ones follow from how these fade. 0 takes as "
                "many as the air's depth and the ground's albedo ask for.",
-               0, 64, 0),
+               0, 64, 0, ErrorSource::orders),
            whole(
                "finer", "Finer",
                "1: the degree that follows from the scene is higher by two, and all that "
                "follows "
                "from it finer; in clean air, which two degrees hold, all the rest is a quarter "
                "finer.",
-               0, 1, 0),
+               0, 1, 0, ErrorSource::tables),
            whole("view_nodes", "View nodes",
                  "Gauss nodes of order one on each smooth piece of a view ray.", 1,
-                 Physics<float>::MOST_GAUSS_NODES, 6),
+                 Physics<float>::MOST_GAUSS_NODES, 6, ErrorSource::quadrature),
            whole("sky_steps", "Sky steps",
                  "Gauss nodes of the other orders on a ray of the camera's sky.", 4,
-                 Physics<float>::MOST_GAUSS_NODES, 14),
+                 Physics<float>::MOST_GAUSS_NODES, 14, ErrorSource::quadrature),
            whole("sky_elevations", "Sky elevations",
-                 "Elevations of the camera's sky, and as many of its ground.", 8, 256, 40),
+                 "Elevations of the camera's sky, and as many of its ground.", 8, 256, 40,
+                 ErrorSource::tables),
            whole("sky_azimuths", "Sky azimuths",
-                 "Azimuths of the camera's sky, in half a turn.", 4, 128, 20),
+                 "Azimuths of the camera's sky, in half a turn.", 4, 128, 20,
+                 ErrorSource::tables),
            whole(
                "march_pixels", "March each pixel",
                "1 marches order one in every pixel, as is always done from outside the air and "
                "for a near or wide sun; 0 reads it from a table of the camera's sky, as "
                "hillaire does.",
-               0, 1, 1),
+               0, 1, 1, ErrorSource::tables),
            whole("first_elevations", "Order one: elevations",
                  "Elevations of that table, half above and half below the horizon.", 4, 512,
-                 108),
-           whole("first_azimuths", "Order one: azimuths", "Azimuths of that table.", 2, 512,
-                 64),
-           whole("first_samples", "Order one: samples", "Samples on its rays.", 4, 64, 16)},
+                 108, ErrorSource::tables),
+           whole("first_azimuths", "Order one: azimuths", "Azimuths of that table.", 2, 512, 64,
+                 ErrorSource::tables),
+           whole("first_samples", "Order one: samples", "Samples on its rays.", 4, 64, 16,
+                 ErrorSource::quadrature)},
       .ladder = {sizes(4, false, false), sizes(0, false, false), sizes(0, false, true),
                  sizes(0, true, true)},
   };
