@@ -1,6 +1,7 @@
 #include "engine/accuracy/attribution.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -13,20 +14,23 @@ namespace {
 using Samples = std::vector<std::vector<double>>;
 using Options = std::map<std::string, double>;
 
-/// As fine as an option may be made for its share to be seen. 0 stays where it leaves the
-/// choice to the method.
-double refined(const MethodOption& option, double value) {
+using Causes = std::initializer_list<ErrorSource>;
+
+/// 0 stays where it leaves the choice to the method.
+/// @param larger  by how much sizes of tables are
+double refined(const MethodOption& option, double value, double larger) {
   if (option.finest) return *option.finest;
   if (value == 0 && option.default_value == 0) return value;
-  const double times = option.lessens == ErrorSource::quadrature ? 4 : 2;
-  return std::min(value * times, option.maximum);
+  if (option.lessens == ErrorSource::quadrature) return std::min(4 * value, option.maximum);
+  if (option.lessens == ErrorSource::orders) return std::min(2 * value, option.maximum);
+  return std::min(std::round(larger * value), option.maximum);
 }
 
-Options refined(const MethodDescription& method, Options options,
-                std::initializer_list<ErrorSource> causes) {
+Options refined(const MethodDescription& method, Options options, Causes causes,
+                double larger) {
   for (const MethodOption& option : method.options) {
     if (std::ranges::find(causes, option.lessens) != causes.end())
-      options.at(option.name) = refined(option, options.at(option.name));
+      options.at(option.name) = refined(option, options.at(option.name), larger);
   }
   return options;
 }
@@ -95,18 +99,35 @@ class Attributor {
     result_.shares.push_back({cause, measure.error, how});
   }
 
-  void refine(const std::string& cause, std::initializer_list<ErrorSource> sources) {
+  struct Refined {
+    Options options;
+    Samples values;
+  };
+
+  /// Sizes of tables are doubled where the device has room for such tables.
+  Refined look_finer(Causes causes) {
+    for (double larger = 2;; larger -= 0.25) {
+      try {
+        Options finer = refined(*method_, result_.plan.options, causes, larger);
+        Samples values = finer == result_.plan.options ? values_ : look(finer);
+        return {std::move(finer), std::move(values)};
+      } catch (const OverLimit&) {
+        if (larger <= 1.25) throw;
+      }
+    }
+  }
+
+  void refine(const std::string& cause, Causes causes) {
     const Options& own = result_.plan.options;
-    const Options finer = refined(*method_, own, sources);
-    if (finer != own) add(cause, measure_error(values_, look(finer)), changes(own, finer));
+    const Refined finer = look_finer(causes);
+    if (finer.options != own)
+      add(cause, measure_error(values_, finer.values), changes(own, finer.options));
   }
 
   void against_the_reference() {
     if (method_->random) return;  // which made it
-    const Options finest =
-        refined(*method_, result_.plan.options,
-                {ErrorSource::quadrature, ErrorSource::tables, ErrorSource::orders});
-    const Samples best = look(finest);
+    const Samples best =
+        look_finer({ErrorSource::quadrature, ErrorSource::tables, ErrorSource::orders}).values;
     const bool one_of_many =
         method_->highest_order == 1 && scene_.method.scattering_orders.value_or(2) > 1;
     if (!one_of_many) {

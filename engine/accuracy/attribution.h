@@ -26,8 +26,9 @@ struct Attribution {
 
 /// The scene by the plan that it asks for, on stratified rays. Causes are
 /// - "quadrature", "tables": the change by numbers of nodes and samples that are four times as
-///   large, by sizes of tables that are twice as large and switches that are at their best; a
-///   rule of order p leaves 4^-p, 2^-p of its error out of it;
+///   large, by sizes of tables that are twice as large (less where the device has no room for
+///   them) and switches that are at their best; a rule of order p leaves 4^-p, 2^-p of its
+///   error out of it;
 /// - "orders": scattering orders that the method does not compute, as the reference has them;
 ///   of those that extrapolate them the change by twice as many;
 /// - "model": what is left against the reference with all of these refined, or of methods of

@@ -58,6 +58,7 @@ void add_compare(CLI::App& app);
 void add_composite(CLI::App& app);
 void add_explain(CLI::App& app);
 void add_attribute(CLI::App& app);
+void add_experiments(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_health(CLI::App& app);
 void add_contact_sheet(CLI::App& app);

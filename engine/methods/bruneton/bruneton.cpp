@@ -188,7 +188,7 @@ MethodDescription describe() {
            nodes("refinement", "Refinement",
                  "The source is interpolated by cubics on a grid so many times finer in each "
                  "coordinate, before it is read linearly; 1 leaves that out.",
-                 1, 6, 2, ErrorSource::tables),
+                 1, 6, 2, ErrorSource::none),
            nodes("samples", "Samples", "Of a path, from the second order on.", 2, 256, 20,
                  ErrorSource::quadrature),
            nodes("view_samples", "View samples", "Of a path that is gathered for the view.", 2,
