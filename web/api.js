@@ -125,17 +125,24 @@ export async function chart(scene, onLine, signal) {
   await eachLine(await post('/v1/chart', scene, signal), onLine);
 }
 
-/** What each ingredient is worth; `onProgress(share)` while it works. */
-export async function explain(scene, onProgress, signal) {
-  let worth;
-  const answer = await post('/v1/explain', scene, signal, { Accept: 'application/x-ndjson' });
-  await eachLine(answer, ({ progress, ingredients }) => {
+// What a route finds that tells how far it is: `onProgress(share)` while it works.
+async function worked(route, member, scene, onProgress, signal) {
+  let found;
+  const answer = await post(route, scene, signal, { Accept: 'application/x-ndjson' });
+  await eachLine(answer, ({ progress, [member]: document }) => {
     onProgress(progress);
-    worth = ingredients;
+    found = document;
   });
-  if (!worth) throw goneMidway();
-  return worth;
+  if (!found) throw goneMidway();
+  return found;
 }
+
+/** What each ingredient is worth. */
+export const explain = (scene, onProgress, signal) =>
+  worked('/v1/explain', 'ingredients', scene, onProgress, signal);
+/** Where the error of the scene's method comes from. */
+export const attribute = (scene, onProgress, signal) =>
+  worked('/v1/attribute', 'attribution', scene, onProgress, signal);
 
 /** Frames of the scene with each of the patches: `onFrame(blob, facts, place)` from 0 on. */
 export async function stream(scene, frames, onFrame, signal) {

@@ -7,7 +7,7 @@
 //     Skies         presets
 //     Adjust        panel schema controls editors spectrum numbers methods limits; constituents curves
 //                   together; day day_clock day_strip
-//     Compare       compare figures chart explain bars own exr
+//     Compare       compare figures chart attribute explain worked bars own exr
 //     Probe, Save   probe, save
 //   drawing         dom plot polar segmented; what is drawn is computed by the daemon
 

@@ -6,6 +6,7 @@ import { Compare } from './compare.js';
 import { Constituents } from './constituents.js';
 import { Controls } from './controls.js';
 import { Day } from './day.js';
+import { attributeBlock } from './attribute.js';
 import { explainBlock } from './explain.js';
 import { bindFacts } from './facts.js';
 import { Limits } from './limits.js';
@@ -104,7 +105,8 @@ export class Page {
     const compare = new Compare({ state, view, overlay, methods, handle: byId('wipe'),
                                   otherCanvas: byId('other') });
     const own = new OwnPicture({ state, panel, overlay, compare, curtain: byId('drop') });
-    return [compare.element, new ChartBlock(state, methods).element, explainBlock(state, view), own.element];
+    return [compare.element, new ChartBlock(state, methods).element, attributeBlock(state, view, methods),
+            explainBlock(state, view), own.element];
   }
 
   // Resolves when the frame on screen does not need the daemon.

@@ -16,21 +16,26 @@ using Options = std::map<std::string, double>;
 
 using Causes = std::initializer_list<ErrorSource>;
 
+/// By how much options become larger.
+struct Finer {
+  double nodes = 4, tables = 2, orders = 2;
+};
+
 /// 0 stays where it leaves the choice to the method.
-/// @param larger  by how much sizes of tables are
-double refined(const MethodOption& option, double value, double larger) {
+double refined(const MethodOption& option, double value, const Finer& times) {
   if (option.finest) return *option.finest;
   if (value == 0 && option.default_value == 0) return value;
-  if (option.lessens == ErrorSource::quadrature) return std::min(4 * value, option.maximum);
-  if (option.lessens == ErrorSource::orders) return std::min(2 * value, option.maximum);
+  const double larger = option.lessens == ErrorSource::quadrature ? times.nodes
+                        : option.lessens == ErrorSource::orders   ? times.orders
+                                                                  : times.tables;
   return std::min(std::round(larger * value), option.maximum);
 }
 
 Options refined(const MethodDescription& method, Options options, Causes causes,
-                double larger) {
+                const Finer& times) {
   for (const MethodOption& option : method.options) {
     if (std::ranges::find(causes, option.lessens) != causes.end())
-      options.at(option.name) = refined(option, options.at(option.name), larger);
+      options.at(option.name) = refined(option, options.at(option.name), times);
   }
   return options;
 }
@@ -105,14 +110,14 @@ class Attributor {
   };
 
   /// Sizes of tables are doubled where the device has room for such tables.
-  Refined look_finer(Causes causes) {
-    for (double larger = 2;; larger -= 0.25) {
+  Refined look_finer(Causes causes, Finer times = {}) {
+    for (;; times.tables -= 0.25) {
       try {
-        Options finer = refined(*method_, result_.plan.options, causes, larger);
+        Options finer = refined(*method_, result_.plan.options, causes, times);
         Samples values = finer == result_.plan.options ? values_ : look(finer);
         return {std::move(finer), std::move(values)};
       } catch (const OverLimit&) {
-        if (larger <= 1.25) throw;
+        if (times.tables <= 1.25) throw;
       }
     }
   }
@@ -126,10 +131,13 @@ class Attributor {
 
   void against_the_reference() {
     if (method_->random) return;  // which made it
+    const bool of_order_one = method_->highest_order == 1;
+    const bool one_of_many = of_order_one && scene_.method.scattering_orders.value_or(2) > 1;
+    // What few nodes miss is not to be taken for the model; order one is quick.
     const Samples best =
-        look_finer({ErrorSource::quadrature, ErrorSource::tables, ErrorSource::orders}).values;
-    const bool one_of_many =
-        method_->highest_order == 1 && scene_.method.scattering_orders.value_or(2) > 1;
+        look_finer({ErrorSource::quadrature, ErrorSource::tables, ErrorSource::orders},
+                   {.nodes = of_order_one ? 32.0 : 4.0})
+            .values;
     if (!one_of_many) {
       add("model", measure_error(best, truth_[0], truth_[1]).measure,
           "refined, against random walks");

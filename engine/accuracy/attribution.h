@@ -32,7 +32,7 @@ struct Attribution {
 /// - "orders": scattering orders that the method does not compute, as the reference has them;
 ///   of those that extrapolate them the change by twice as many;
 /// - "model": what is left against the reference with all of these refined, or of methods of
-///   order one against order one by the finest quadrature;
+///   order one, with nodes 32 times as many, against order one by the finest quadrature;
 /// - "wavelengths": of colours the change by 32 wavelengths, where the scene leaves them open;
 /// - "walks": of random methods their noise, from another seed.
 /// What a method has none of is left out. The error of floats is another engine's matter

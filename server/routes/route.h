@@ -37,6 +37,7 @@ Route plan_link();
 Route compare_post();
 Route composite_post();
 Route explain_post();
+Route attribute_post();
 Route chart_post();
 Route optics_post();
 Route day_post();

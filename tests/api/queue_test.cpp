@@ -256,13 +256,13 @@ struct Full {
 TEST(Queue, AFullOneRefusesBeforeItReads) {
   Full full(Full::with_places(1), "a", 1);
   for (const auto* path : {"/v1/render", "/v1/radiance", "/v1/compare", "/v1/explain",
-                           "/v1/chart", "/v1/stream", "/v1/composite"}) {
+                           "/v1/attribute", "/v1/chart", "/v1/stream", "/v1/composite"}) {
     const auto answer = client_of(full.daemon).Post(path, "no scene", "application/json");
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 503) << path;
     EXPECT_TRUE(answer->has_header("Retry-After")) << path;
   }
-  EXPECT_EQ(full.daemon.service().queue.counts().rejected, 7u);
+  EXPECT_EQ(full.daemon.service().queue.counts().rejected, 8u);
   // What takes no place is answered, and said to be wrong, as ever.
   EXPECT_EQ(client_of(full.daemon).Post("/v1/optics", "no scene", "")->status, 400);
 }

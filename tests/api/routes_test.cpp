@@ -478,6 +478,28 @@ TEST(Explain, RefusesAsOtherRoutesDo) {
   expect_problem(post("/v1/explain", quick_scene(), {{"Accept", "image/png"}}), 406);
 }
 
+// ---- attribute
+
+TEST(Attribute, SaysOfTheSceneSMethodWhereItsErrorComesFrom) {
+  json scene = quick_scene();
+  scene["method"] = {{"name", "nishita"}, {"view_samples", 8}, {"scattering_orders", 1}};
+  const auto answer = post("/v1/attribute", scene);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  const json found = json::parse(answer->body);
+  EXPECT_EQ(found.at("method"), "nishita");
+  EXPECT_EQ(found.at("options").at("view_samples"), 8);
+  const json& share = found.at("shares").at(0);
+  EXPECT_EQ(share.at("cause"), "quadrature");
+  EXPECT_NEAR(share.at("error"), found.at("error"), 0.3 * found["error"].get<double>());
+  EXPECT_THAT(share.at("how").get<std::string>(), ::testing::HasSubstr("view_samples 8 to 32"));
+  const auto lines = post("/v1/attribute", scene, {{"Accept", "application/x-ndjson"}});
+  ASSERT_TRUE(lines);
+  const std::string last =
+      lines->body.substr(lines->body.rfind('\n', lines->body.size() - 2) + 1);
+  EXPECT_EQ(json::parse(last).at("attribution"), found);
+}
+
 // ---- what the page draws
 
 TEST(Optics, ConstituentsComeAsCurves) {

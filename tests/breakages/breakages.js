@@ -166,9 +166,14 @@ const BY_SENTENCE = {
     ['the measurements', 'failures.html'],
   ],
   'what each part is worth is told in bars, and how far the work is': [
-    ['bars', 'explain.js', 'if (worth) put(draw(worth));', NOTHING],
+    ['bars', 'worked.js', 'if (found) put(draw(found));', NOTHING],
     ['their order', 'explain.js', '.sort(([, a], [, b]) => b.error - a.error)', NOTHING],
-    ['progress', 'explain.js', '(share) => { done.value = share; }', '() => {}'],
+    ['progress', 'worked.js', '(share) => { done.value = share; }', '() => {}'],
+  ],
+  'where the error of the chosen method comes from is told in bars': [
+    ['the method', 'attribute.js', '[title, settings]', '[title]'],
+    ['bars', 'attribute.js', `bars('Error by cause', rows),`, NOTHING],
+    ['their order', 'attribute.js', '.sort((a, b) => b.error - a.error)', NOTHING],
   ],
   'speed and accuracy are charted while they are measured; a point is taken': [
     ['points as they come', 'chart.js', 'this.#redraw = undefined;\n      this.#draw();', 'this.#redraw = undefined;\n      if (!this.#task.running) this.#draw();'],

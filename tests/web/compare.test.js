@@ -123,6 +123,22 @@ visit('what each part is worth is told in bars, and how far the work is', async 
   await person.photograph('explain');
 }, { hash: FIXED });
 
+visit('where the error of the chosen method comes from is told in bars', async (person, page) => {
+  await person.tab('Compare');
+  await page.getByRole('button', { name: 'Take apart' }).click();
+  const block = page.locator('#attribute-block');
+  await block.locator('.bars li').first().waitFor();
+  assert.match(await block.locator('.total').textContent(), /view samples 8.*: error \d/);
+  const rows = await block.locator('.bars li').evaluateAll((all) => all.map((row) => [
+    row.querySelector('.bar-name').textContent, Number.parseFloat(row.querySelector('.bar-text').textContent)]));
+  const errors = Object.fromEntries(rows);
+  assert.ok(errors['Too few nodes and samples'] > 1);
+  assert.ok(errors['Orders of scattering left out'] > 10);
+  assert.deepEqual(rows.map(([, error]) => error), rows.map(([, error]) => error).sort((a, b) => b - a));
+  await block.scrollIntoViewIfNeeded();
+  await person.photograph('attribute');
+}, { hash: '#preset=earth_low_sun&spectrum.wavelengths_nm=[680,550,440]&method.name=nishita&method.view_samples=8' });
+
 visit('speed and accuracy are charted while they are measured; a point is taken',
   async (person, page) => {
     await person.tab('Compare');
