@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 /// Of somebody who waits for it.
-constexpr ReferenceGoal live_goal{.rays = 128, .noise = 0.005, .most_walks = 2048};
+constexpr ReferenceGoal live_goal{.rays = 96, .noise = 0.01, .most_walks = 1024};
 
 Answer attribute_request(const Request& request, Service& service) {
   return live_document(

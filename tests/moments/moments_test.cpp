@@ -504,7 +504,7 @@ TEST(Moments, AreNotCutShortByTheirLoops) {
 
 TEST(Moments, NothingIsSeenThroughAirThatHidesEverything) {
   Scene scene = clear_scene(0, 40);
-  scene.atmosphere.constituents["cloud"] = {
+  scene.atmosphere.constituents["ozone"] = {
       TentProfile{40, 10}, Particles{ParticleCoefficients{1e4, 3e3}, HenyeyGreenstein{0.5}}};
   for (double degree : {2, 4}) {
     scene.method.options["degree"] = degree;

@@ -359,7 +359,7 @@ TEST(PathTracing, OfALargeSunIsTheMeanOverItsDisc) {
 TEST(PathTracing, StandardErrorsAreAsLargeAShareOfNextToNoLight) {
   const auto shares = [](double depth) {
     Scene scene = earth(0, 90, 256);
-    scene.atmosphere.constituents["shade"] = {TentProfile{95, 2},
+    scene.atmosphere.constituents["ozone"] = {TentProfile{95, 2},
                                               Absorber{AbsorptionCoefficient{depth / 2}}};
     const Radiances seen = device().radiance(scene, spread(8, 20, 85), false);
     double sum = 0;
