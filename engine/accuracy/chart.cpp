@@ -93,14 +93,6 @@ ChartPoint point_from(const json& document) {
   return point;
 }
 
-std::map<std::string, double> defaults_of(const MethodDescription& method) {
-  std::map<std::string, double> defaults;
-  for (const MethodOption& option : method.options) {
-    defaults[option.name] = option.default_value;
-  }
-  return defaults;
-}
-
 }  // namespace
 
 json point_document(const ChartPoint& point) {
@@ -154,11 +146,17 @@ Scene charted(const Scene& scene, int pixels) {
   return result;
 }
 
+std::map<std::string, double> defaults_of(const MethodDescription& method) {
+  std::map<std::string, double> defaults;
+  for (const MethodOption& option : method.options) {
+    defaults[option.name] = option.default_value;
+  }
+  return defaults;
+}
+
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method) {
   std::vector<std::map<std::string, double>> settings = method.ladder;
-  std::map<std::string, double> defaults;
-  for (const MethodOption& option : method.options)
-    defaults[option.name] = option.default_value;
+  const std::map<std::string, double> defaults = defaults_of(method);
   for (const std::map<std::string, double>& change : method.variations) {
     std::map<std::string, double> varied = defaults;
     for (const auto& [name, value] : change) varied.at(name) = value;

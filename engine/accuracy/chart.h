@@ -58,6 +58,9 @@ struct ChartSettings {
 /// methods would be compared by how many they are given; and about so many pixels large.
 Scene charted(const Scene& scene, int pixels);
 
+/// Every option of the method as it is where nothing is asked.
+std::map<std::string, double> defaults_of(const MethodDescription& method);
+
 /// The settings at which a method is charted, roughly cheapest first.
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method);
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "engine/accuracy/chart.h"
 #include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 
@@ -31,8 +32,7 @@ const MethodDescription& described(const std::string& name) {
 Plan plan_of(const Scene& scene, const MethodDescription& method) {
   Plan plan;
   plan.method = method.name;
-  for (const MethodOption& option : method.options)
-    plan.options[option.name] = option.default_value;
+  plan.options = defaults_of(method);
   plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
   return plan;
 }

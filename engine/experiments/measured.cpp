@@ -20,9 +20,7 @@ Plan plan_by(const Scene& scene, const std::string& method,
              const std::map<std::string, double>& options) {
   Plan plan;
   plan.method = method;
-  for (const MethodOption& option :
-       std::ranges::find(methods(), method, &MethodDescription::name)->options)
-    plan.options[option.name] = option.default_value;
+  plan.options = defaults_of(*std::ranges::find(methods(), method, &MethodDescription::name));
   for (const auto& [name, value] : options) plan.options.at(name) = value;
   plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
   return plan;
