@@ -25,8 +25,8 @@ double burnt_out(const Frame& frame) {
 }
 
 /// [O'Neil 2005, GPU Gems 2, chapter 16]: air as thick as a fortieth of the radius, a quarter
-/// of that as its scale height for molecules and particles alike, a peak of g = 0.99 (its
-/// function's is -0.99 towards the sun), 650, 570 and 475 nm, five samples.
+/// of that as its scale height for molecules and particles alike, 650, 570 and 475 nm, five
+/// samples, and a forward peak with a g of 0.99.
 json of_o_neil() {
   const double thickness_km = 6371.0 / 40, scale_km = thickness_km / 4;
   const json falling{{"type", "exponential"}, {"scale_height_km", scale_km}};
@@ -50,7 +50,7 @@ json of_o_neil() {
                {{"type", "particles"},
                 {"scattering_per_km", particles},
                 {"absorption_per_km", 0},
-                {"phase", {{"type", "cornette_shanks"}, {"g", 0.95}}},
+                {"phase", {{"type", "cornette_shanks"}, {"g", 0.99}}},
                 {"profile", falling}}}}}}},
           {"spectrum", {{"wavelengths_nm", {650, 570, 475}}}},
           {"method", {{"name", "nishita"}, {"view_samples", 5}, {"light_samples", 5}}}};

@@ -63,7 +63,7 @@ Finding heights_of_the_top(Engine& engine, const ExperimentSettings& settings,
                             {"method", {{"scattering_orders", 1}}}},
                            settings.pixels);
   };
-  // Rays of the limb and the disc alike, whatever the top.
+  // The same rays under all tops.
   const Scene highest = scene_under(highest_km);
   const std::vector<Direction> directions = sample_directions(scene_under(60), settings.rays);
   const RayValues truth = finest_of(engine, highest, directions, watch);
