@@ -136,6 +136,22 @@ test('settings are those of the daemon, and it has what the probes ask', async (
   assert.equal(await daemon.stop(), 0);
 });
 
+test('what the daemon may take fits into its pod', () => {
+  const usual = execFileSync(binary, ['serve', '--help-markdown'], { encoding: 'utf8' });
+  const gibibytes = (amount) => Number(/^(\d+)Gi$/.exec(amount)[1]);
+  for (const folder of ['base', 'keda', 'gpu']) {
+    const [container] = podOf(made.get(folder)).spec.containers;
+    const setting = (name) => Number(environment(container)[name]
+      ?? new RegExp(`\`${name}\` \\| \`(\\d+)\``).exec(usual)[1]);
+    // docker/README.md, "What to watch"; the bodies of requests are as much again as the frames.
+    const most = setting('CYANOMETER_CACHE_MB') + 2 * setting('CYANOMETER_FRAME_MEMORY_MB')
+      + 5 * setting('CYANOMETER_KERNELS') + 200;
+    const { requests, limits } = container.resources;
+    assert.ok(gibibytes(limits.memory) * 1024 >= most, `${folder}: ${most} MiB`);
+    assert.equal(requests.memory, limits.memory);
+  }
+});
+
 test('what is in flight is finished before a pod is killed', () => {
   const deadline = 600; // --deadline-s, unless the manifest says otherwise
   const { spec } = podOf(made.get('base'));
