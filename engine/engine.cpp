@@ -45,12 +45,10 @@ bool meets_air_or_ground(Physics<double>& camera, int pixel) {
   return ray.inside && camera.meets_planet(camera.path_from_camera(ray.direction));
 }
 
-/// Some of the frame's pixels, one from each cell of an even grid, off its centre so that no
-/// row or column of the picture is looked at twice as often as another.
-std::vector<int> stratified_pixels(Physics<double>& camera, int count) {
-  int side = static_cast<int>(std::lround(std::sqrt(count)));
+/// One pixel from each cell of an even grid, off its centre so that no row or column of the
+/// picture is looked at twice as often as another; those that meet air or ground.
+std::vector<int> pixels_of_grid(Physics<double>& camera, int columns, int rows) {
   int width = camera.scene.width, height = camera.scene.height;
-  int columns = std::min(side, width), rows = std::min(side, height);
   std::vector<int> pixels;
   for (int cell = 0; cell < columns * rows; ++cell) {
     // Additive recurrence on the plastic number: evenly spread offsets without a random number.
@@ -62,6 +60,26 @@ std::vector<int> stratified_pixels(Physics<double>& camera, int count) {
     if (meets_air_or_ground(camera, pixel)) pixels.push_back(pixel);
   }
   return pixels;
+}
+
+/// At least `count` of the frame's pixels that meet air or ground, or nearly all that do.
+std::vector<int> stratified_pixels(Physics<double>& camera, int count) {
+  constexpr int finest = 1024;
+  int width = camera.scene.width, height = camera.scene.height;
+  for (int side = static_cast<int>(std::lround(std::sqrt(count)));;) {
+    std::vector<int> pixels =
+        pixels_of_grid(camera, std::min(side, width), std::min(side, height));
+    auto found = static_cast<int>(pixels.size());
+    if (found >= count || side >= std::min(finest, std::max(width, height))) return pixels;
+    double finer = std::sqrt(static_cast<double>(count) / std::max(found, 1));
+    side = std::min(std::max(side + 1, static_cast<int>(1.03 * finer * side)), finest);
+  }
+}
+
+template <class T>
+void append_bytes(std::string& key, const std::vector<T>& values) {
+  auto bytes = std::as_bytes(std::span(values));
+  key.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 /// Rays that are traced by themselves, as from a list.
@@ -112,7 +130,7 @@ std::vector<double> wavelengths_of_transmittance(const Scene& scene) {
 Samples picture_light(const Scene& scene, const Rays& rays) {
   std::vector<double> wavelengths = wavelengths_of_transmittance(scene);
   Output output = make_output(scene, wavelengths);
-  auto rows = transmittance_rows(output);
+  auto rows = transmittance_rows(scene, wavelengths);
   Physics<double> p = pack<double>(make_problem(scene, wavelengths));
   set_directions(p, rays.directions);
   p.ends_km.assign(rays.ends_km.begin(), rays.ends_km.end());
@@ -428,24 +446,26 @@ struct Engine::Parts {
   Plan plan_frame(const Scene& scene, const Watch& watch) {
     if (scene.method.verify) return plan_this_frame(scene, watch);
     Scene alike = nearby(scene);
-    return known_plan(canonical(alike).dump(), [&] { return plan_this_frame(alike, watch); });
+    return known_plan(canonical(alike).dump() + ground_revision(alike),
+                      [&] { return plan_this_frame(alike, watch); });
   }
 
   /// The plan of one picture holds for no other.
   Plan plan_composite(const Scene& scene, const Picture& picture, const Watch& watch) {
     Rays rays = probes_of(scene, &picture);
-    auto ends = std::as_bytes(std::span(rays.ends_km));
-    std::string key(reinterpret_cast<const char*>(ends.data()), ends.size());
-    return known_plan(canonical(scene).dump() + key,
-                      [&] { return plan(scene, rays, pixels_of(scene), watch); });
+    std::string key = canonical(scene).dump() + ground_revision(scene);
+    append_bytes(key, rays.ends_km);
+    append_bytes(key, rays.colours);
+    return known_plan(key, [&] { return plan(scene, rays, pixels_of(scene), watch); });
   }
 
   template <class Make>
   Plan known_plan(const std::string& key, Make make) {
-    constexpr std::size_t most_plans = 4096;
+    constexpr std::size_t most_plans = 4096, longest_key = 1 << 14;
     if (auto known = plans.find(key); known != plans.end()) return known->second;
     if (plans.size() >= most_plans) plans.clear();
     Plan plan = make();
+    if (key.size() > longest_key) return plan;  // spectra of thousands of numbers fill a memory
     return plans[key] = std::move(plan);
   }
 
@@ -534,8 +554,8 @@ void Engine::Parts::overlay(const Scene& scene, const std::vector<PlaneGroup>& g
     std::ranges::copy_n(xyz_from_rec709().begin() + 3, 3, luminance.begin());
   }
   Tracer tracer = this->tracer("overlay", watch);
-  compositor.overlay(tracer, scenes, transmittance_rows(make_output(scene, wavelengths)), shown,
-                     groups, luminance, store);
+  compositor.overlay(tracer, scenes, transmittance_rows(scene, wavelengths), shown, groups,
+                     luminance, store);
   frame.render_ms += tracer.device_ms;
 }
 
@@ -620,17 +640,36 @@ Frame Engine::render(const Scene& scene, const Plan& plan, const Picture* pictur
 
 namespace {
 
-/// Direct irradiance on a horizontal plane at the camera, per unit of the sun's.
-std::vector<double> direct_irradiance(Physics<double>& physics,
-                                      const std::vector<double>& transmittance) {
-  glm::dvec3 camera(0, 0, physics.scene.planet_radius_km + physics.scene.camera_altitude_km);
-  auto sun = physics.sun_ray(camera, glm::dvec3(0));
-  bool lit = sun.direction.z > 0 && !physics.path_from_camera(sun.direction).meets_ground;
-  std::vector<double> direct(transmittance.size(), 0.0);
-  for (std::size_t w = 0; lit && w < direct.size(); ++w) {
-    direct[w] = transmittance[w] * sun.irradiance * sun.direction.z;
+/// Of one point of the sun's disc: where it stands, and the irradiance that it gives a
+/// horizontal plane at the camera, per unit of the sun's and by wavelength, through no air.
+struct LitPoint {
+  glm::dvec3 direction;
+  std::vector<double> irradiance;
+};
+
+/// The points of the disc that neither the ground nor its heights hide from the camera.
+std::vector<LitPoint> lit_points(Physics<double>& physics, std::size_t wavelengths) {
+  double altitude_km = physics.scene.camera_altitude_km;
+  glm::dvec3 camera(0, 0, physics.scene.planet_radius_km + altitude_km);
+  double visible = 1;
+  if (physics.SURFACE_KIND != Physics<double>::SURFACE_UNIFORM) {
+    constexpr double detail = 1e-4;  // of the planet's radius, as raymarch.comp
+    visible = physics.sun_over_heights(camera, altitude_km,
+                                       physics.sun_ray(camera, glm::dvec3(0)).direction,
+                                       detail * physics.scene.planet_radius_km);
   }
-  return direct;
+  std::vector<LitPoint> points;
+  for (int k = 0; k < physics.scene.disc_points; ++k) {
+    auto sun = physics.sun_ray(camera, physics.sun_offset(k));
+    if (!(sun.direction.z > 0) || physics.path_from_camera(sun.direction).meets_ground)
+      continue;
+    LitPoint& point = points.emplace_back(LitPoint{sun.direction, {}});
+    for (std::size_t w = 0; w < wavelengths; ++w) {
+      double weight = physics.sun_weight(k, static_cast<int>(w / 4))[static_cast<int>(w % 4)];
+      point.irradiance.push_back(visible * weight * sun.irradiance * sun.direction.z);
+    }
+  }
+  return points;
 }
 
 std::vector<double> weighted_sum(const Samples& radiance, const std::vector<double>& weights,
@@ -658,6 +697,14 @@ std::vector<glm::dvec3> unit_vectors(const std::vector<Direction>& directions) {
   return vectors;
 }
 
+/// As many as a plan looks at.
+std::vector<glm::dvec3> evenly_from(const std::vector<glm::dvec3>& rays) {
+  std::size_t count = std::min<std::size_t>(probes, rays.size());
+  std::vector<glm::dvec3> some;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(rays[i * rays.size() / count]);
+  return some;
+}
+
 }  // namespace
 
 Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& directions,
@@ -670,9 +717,8 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
     spectral.spectrum.wavelengths_nm = colour_wavelengths(16);
   }
   std::vector<glm::dvec3> rays = unit_vectors(directions);
-  std::vector<glm::dvec3> probe(
-      rays.begin(), rays.begin() + std::min<std::ptrdiff_t>(probes, std::ssize(rays)));
-  Plan plan = parts_->plan(spectral, {probe}, static_cast<double>(rays.size()), watch);
+  Plan plan =
+      parts_->plan(spectral, {evenly_from(rays)}, static_cast<double>(rays.size()), watch);
   double planning_ms = ms_since(start);
   Radiances result = radiance(scene, directions, irradiance, plan, watch);
   result.prepare_ms += planning_ms;
@@ -696,7 +742,7 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
                               watch);
   };
   Parts::Traced traced = trace(rays);
-  result.radiance = std::move(traced.radiance);
+  result.radiance = result.relative = std::move(traced.radiance);
   result.transmittance = std::move(traced.transmittance);
   scale_by(sunlight, result.radiance);
   if (!traced.standard_error.empty()) {
@@ -705,16 +751,25 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   }
   if (irradiance) {
     Physics<double> physics = pack<double>(problem);
-    glm::dvec3 camera(0, 0, problem.planet_radius_km + problem.camera.altitude_km);
+    auto direct_irradiance = [&] {
+      std::vector<LitPoint> points = lit_points(physics, sunlight.size());
+      std::vector<glm::dvec3> towards;
+      for (const LitPoint& point : points) towards.push_back(point.direction);
+      std::vector<double> sum(sunlight.size(), 0.0);
+      if (points.empty()) return sum;
+      Samples transmittance = trace(towards).transmittance;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t w = 0; w < sum.size(); ++w)
+          sum[w] += points[i].irradiance[w] * transmittance[i][w];
+      }
+      return sum;
+    };
     HemisphereRule sky = hemisphere_rule(problem, true),
                    below = hemisphere_rule(problem, false);
     std::size_t count = sunlight.size();
-    Samples fluxes{
-        direct_irradiance(
-            physics,
-            trace({physics.sun_ray(camera, glm::dvec3(0)).direction}).transmittance.front()),
-        weighted_sum(trace(sky.directions).radiance, sky.weights, count),
-        weighted_sum(trace(below.directions).radiance, below.weights, count)};
+    Samples fluxes{direct_irradiance(),
+                   weighted_sum(trace(sky.directions).radiance, sky.weights, count),
+                   weighted_sum(trace(below.directions).radiance, below.weights, count)};
     scale_by(sunlight, fluxes);
     result.irradiance = {fluxes[0], fluxes[1], fluxes[2]};
   }

@@ -89,7 +89,11 @@ struct Direction {
 };
 struct Radiances {
   std::vector<double> wavelengths_nm;
-  std::vector<std::vector<double>> radiance;       ///< [direction][wavelength], scene units
+  std::vector<std::vector<double>> radiance;  ///< [direction][wavelength], scene units
+  /// The same per unit of the sun's irradiance, 1/sr. Colours are made of this: the light
+  /// between two wavelengths is known also where the sun has none at the wavelengths
+  /// themselves.
+  std::vector<std::vector<double>> relative;
   std::vector<std::vector<double>> transmittance;  ///< to ground or top
   std::optional<std::vector<std::vector<double>>> standard_error;
   struct Irradiance {
@@ -144,6 +148,7 @@ struct SceneTraits {
   double sun_diameter_deg = 0;  ///< of the disc that light comes from; 0 a point
   int scattering_orders = -1;   ///< -1 all
   bool varied_ground = false;   ///< differs from place to place
+  bool near_sun = false;        ///< rays of light spread from a point
 };
 struct MethodLimit {
   std::string words;

@@ -25,7 +25,8 @@ Service::Service(const Config& config_)
              .warm = config_.warm,
              .faults = config_.faults}),
       frames(queue, config_.kept_frame_bytes()) {
-  use_surfaces(config.surfaces, config.surface_bytes());
+  // `render --frames` has said before any command where they are.
+  if (!config.surfaces.empty()) use_surfaces(config.surfaces, config.surface_bytes());
 }
 
 namespace {

@@ -65,7 +65,7 @@ layout(binding = 3, rgba32f) uniform restrict readonly imageBuffer profile_nodes
 layout(binding = 4, r32f) uniform restrict readonly imageBuffer phase_angles;
 layout(binding = 5, rgba32f) uniform restrict readonly imageBuffer phase_values;
 // Points of the sun's disc: offset in the plane of the disc in units of the sine of its radius, then
-// for each group of wavelengths the point's weight.
+// for each group of wavelengths the point's weight; at the end the scale of the disc that this frame draws, 1/sr.
 layout(binding = 6, rgba32f) uniform restrict readonly imageBuffer sun_points;
 layout(binding = 7, rgba32f) uniform restrict readonly imageBuffer directions;
 layout(binding = 8, rgba32f) uniform restrict readonly imageBuffer quadrature;  // node, weight; then kinks
@@ -105,6 +105,7 @@ void load_media() {
 #define limb_exponent(group) READ(spectra, GROUPS + (group))
 #define sun_offset(k) READ(sun_points, (k) * (GROUPS + 1)).xyz
 #define sun_weight(k, group) READ(sun_points, (k) * (GROUPS + 1) + 1 + (group))
+#define disc_scale(group) READ(sun_points, scene.disc_points * (GROUPS + 1) + (group))
 
 #include "physics/physics.glsl"
 

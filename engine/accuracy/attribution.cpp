@@ -88,7 +88,7 @@ class Attributor {
   Samples look(const Plan& plan) {
     const RayColours colours(scene_, plan.wavelengths_nm);
     Samples seen = colours.error_channels(
-        engine_.radiance(scene_, directions_, false, plan, quiet_).radiance);
+        engine_.radiance(scene_, directions_, false, plan, quiet_).relative);
     looks_ += 1;
     watch_.progress(std::min(reference_share + (1 - reference_share) * looks_ / steps, 1.0));
     return seen;

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 json measure_choice(Engine& engine, const Scene& scene, const Reference& reference,
                     const Plan& plan, const Watch& watch) {
-  auto values = engine.radiance(scene, reference.directions, false, plan, watch).radiance;
+  auto values = engine.radiance(scene, reference.directions, false, plan, watch).relative;
   EstimatedError error = measure_error(values, reference.halves[0], reference.halves[1]);
   return {{"method", plan.method},
           {"options", plan.options},

@@ -125,7 +125,7 @@ ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& re
   point.method = method;
   point.options = options;
   try {
-    auto values = engine.radiance(scene, reference.directions, false, plan, watch).radiance;
+    auto values = engine.radiance(scene, reference.directions, false, plan, watch).relative;
     point.error = measure_error(values, reference.halves[0], reference.halves[1]);
     measure_time(engine, scene, plan, settings, made_ms, watch, point);
   } catch (const OverLimit& limit) {

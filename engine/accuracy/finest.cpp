@@ -20,16 +20,7 @@ std::vector<double> converged_wavelengths(const Scene& scene) {
 }
 
 RayColours::RayColours(const Scene& scene, const std::vector<double>& wavelengths_nm)
-    : output_(make_output(scene, wavelengths_nm)) {
-  // The rows are those of radiance per unit irradiance.
-  for (auto* rows : {&output_.rgb, &output_.xyz}) {
-    for (std::vector<double>& row : *rows) {
-      for (std::size_t w = 0; w < row.size(); ++w) {
-        row[w] = output_.irradiance[w] > 0 ? row[w] / output_.irradiance[w] : 0;
-      }
-    }
-  }
-}
+    : output_(make_output(scene, wavelengths_nm)) {}
 
 std::vector<std::vector<double>> RayColours::error_channels(
     const std::vector<std::vector<double>>& radiance) const {

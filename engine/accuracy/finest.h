@@ -17,7 +17,7 @@ Plan finest_plan(const Scene& scene, const std::vector<double>& wavelengths_nm);
 /// tenth of a percent.
 std::vector<double> converged_wavelengths(const Scene& scene);
 
-/// From spectral radiances in the scene's units to channels.
+/// From spectral radiances per unit of the sun's irradiance to channels.
 class RayColours {
  public:
   RayColours(const Scene& scene, const std::vector<double>& wavelengths_nm);

@@ -136,7 +136,7 @@ class Explainer {
   Light light(const Scene& scene, const std::vector<double>& wavelengths_nm) {
     Plan finest = finest_plan(scene, wavelengths_nm);
     return {wavelengths_nm,
-            engine_.radiance(scene, directions_, false, finest, quiet_).radiance};
+            engine_.radiance(scene, directions_, false, finest, quiet_).relative};
   }
 
   double planned_ms(const Scene& scene) { return engine_.plan(scene, quiet_).expected_ms; }

@@ -89,7 +89,7 @@ std::array<Samples, 2> converged_channels(Engine& engine, const Scene& asked,
                             .radiance(tinted, reference.directions, false,
                                       finest_plan(tinted, wavelengths_nm),
                                       part_of(watch, 0.8, 1))
-                            .radiance);
+                            .relative);
   };
   Samples with_few = finest(few), with_many = finest(converged_wavelengths(asked));
   for (Samples& half : halves) {
@@ -188,7 +188,7 @@ double share_of_bands(Engine& engine, const Scene& scene, const std::vector<Cont
   }
   Plan plan = finest_plan(scene, wavelengths);
   Samples radiance =
-      engine.radiance(scene, pixel_directions(scene, ends), false, plan, watch).radiance;
+      engine.radiance(scene, pixel_directions(scene, ends), false, plan, watch).relative;
   std::size_t bands = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
     bands += is_band(some[i], [&](std::size_t pixel) {

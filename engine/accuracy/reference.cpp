@@ -1,5 +1,6 @@
 #include "engine/accuracy/reference.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -35,6 +36,7 @@ json identity_of(const Scene& scene, const std::vector<Direction>& directions) {
   for (const Direction& ray : directions) rays.push_back({ray.elevation_deg, ray.azimuth_deg});
   json identity = {{"scene", canonical(undressed(scene))},
                    {"rays", fingerprint(rays.dump())},
+                   {"unit", "1/sr"},
                    {"version", version()}};
   if (std::string ground = ground_revision(scene); !ground.empty()) identity["ground"] = ground;
   return identity;
@@ -71,7 +73,7 @@ void load(const std::filesystem::path& file, const json& identity, std::size_t w
 void save(const std::filesystem::path& file, const json& identity, const Reference& reference) {
   std::filesystem::create_directories(file.parent_path());
   std::filesystem::path unfinished = file;
-  unfinished += ".new";
+  unfinished += "." + std::to_string(::getpid()) + ".new";  // others may make the same
   std::ofstream out(unfinished, std::ios::binary);
   out << json{{"identity", identity}, {"walks", reference.walks}, {"halves", reference.halves}};
   out.close();
@@ -89,7 +91,7 @@ void add_walks(Engine& engine, const Scene& scene, std::int64_t walks, const Wat
     plan.options = {{"samples_per_pixel", static_cast<double>(walks)},
                     // Every pass but the first doubles what is there: its size is its own.
                     {"seed", static_cast<double>(2 * reference.walks + half)}};
-    Samples more = engine.radiance(scene, reference.directions, false, plan, watch).radiance;
+    Samples more = engine.radiance(scene, reference.directions, false, plan, watch).relative;
     Samples& sum = reference.halves[half];
     if (reference.walks == 0) {
       sum = std::move(more);

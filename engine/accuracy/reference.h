@@ -13,7 +13,8 @@ namespace cyanometer {
 
 struct Reference {
   std::vector<Direction> directions;
-  /// [half][direction][wavelength], in the scene's units: two estimates with nothing in common.
+  /// [half][direction][wavelength], per unit of the sun's irradiance: two estimates with
+  /// nothing in common.
   std::array<std::vector<std::vector<double>>, 2> halves;
   std::int64_t walks = 0;  ///< along each direction, in each half
   double noise = 0;        ///< the error of the halves' mean, in the contract's measure

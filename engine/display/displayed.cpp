@@ -26,6 +26,11 @@ using glm::pow;
 }  // namespace tone
 }  // namespace
 
+Triple into_gamut(const Triple& rgb) {
+  const glm::dvec3 inside = tone::into_gamut({rgb[0], rgb[1], rgb[2]});
+  return {inside.x, inside.y, inside.z};
+}
+
 Matrix display_matrix(const Output& output, double exposure_ev) {
   Matrix matrix = output.white_balance;
   for (double& element : matrix) element *= std::exp2(exposure_ev) / output.white_card;

@@ -7,6 +7,10 @@
 
 namespace cyanometer {
 
+/// The colour nearest to grey of the same luminance that has nothing negative; black where that
+/// is negative.
+Triple into_gamut(const Triple& rgb);
+
 /// Linear Rec. 709 in an image's unit to the display's: exposure times white balance.
 Matrix display_matrix(const Output& output, double exposure_ev);
 

@@ -1,8 +1,9 @@
 #include "engine/display/planes.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <sstream>
+#include <optional>
 
 namespace cyanometer {
 namespace {
@@ -28,25 +29,33 @@ int shown(const Problem& problem) {
   return quantities;
 }
 
+/// With the fewest digits that tell it from all others.
 std::string wavelength_name(double nm) {
-  std::ostringstream name;
-  name << nm << "nm";
-  return name.str();
+  std::array<char, 32> digits;
+  char* end = std::to_chars(digits.data(), digits.data() + digits.size(), nm).ptr;
+  return std::string(digits.data(), end) + "nm";
 }
 
-/// Transmittance in a channel is that of the sun's own light: rows over their sums.
-std::vector<double> normalised(std::vector<double> row) {
-  double sum = 0;
-  for (double x : row) sum += x;
-  for (double& x : row) x = sum != 0 ? x / sum : 0;
+/// Over its sum; none where that is a small difference of large numbers, which would make
+/// transmittances of more than 1 and less than 0.
+std::optional<std::vector<double>> normalised(std::vector<double> row) {
+  constexpr double least_share = 0.3;
+  double sum = 0, sizes = 0;
+  for (double x : row) {
+    sum += x;
+    sizes += std::abs(x);
+  }
+  if (!(sum > least_share * sizes)) return std::nullopt;
+  for (double& x : row) x /= sum;
   return row;
 }
 
-PlaneGroup rgb_group(const Output& output, int quantities, const std::string& prefix) {
+PlaneGroup rgb_group(const std::array<std::vector<double>, 3>& rows, int quantities,
+                     const std::string& prefix) {
   PlaneGroup group;
   for (std::size_t c = 0; c < 3; ++c) {
     group.channels.push_back(prefix + "RGB"[c]);
-    group.rows[c] = quantities & transmittance ? normalised(output.rgb[c]) : output.rgb[c];
+    group.rows[c] = rows[c];
   }
   set_weights(group, quantities, 3);
   return group;
@@ -70,7 +79,7 @@ std::vector<PlaneGroup> spectral_groups(const Problem& problem, const Output& ou
 }
 
 PlaneGroup image_group(const Scene& scene, const Problem& problem, const Output& output) {
-  PlaneGroup group = rgb_group(output, shown(problem), "");
+  PlaneGroup group = rgb_group(output.rgb, shown(problem), "");
   group.stars = problem.show.stars;
   std::vector<double>& luminance = group.rows[3];
   luminance = output.xyz[1];
@@ -92,7 +101,10 @@ std::vector<PlaneGroup> plane_groups(const Scene& scene, const Problem& problem,
   bool spectral = scene.image.channels == Channels::spectral;
   auto add = [&](int quantities, const std::string& prefix, bool stars) {
     if (!spectral) {
-      groups.push_back(rgb_group(output, quantities, prefix));
+      const auto rows = quantities & transmittance
+                            ? transmittance_rows(scene, problem.wavelengths_nm)
+                            : output.rgb;
+      groups.push_back(rgb_group(rows, quantities, prefix));
       groups.back().stars = stars;
       return;
     }
@@ -125,8 +137,19 @@ std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& prob
   return groups;
 }
 
-std::array<std::vector<double>, 3> transmittance_rows(const Output& output) {
-  return {normalised(output.rgb[0]), normalised(output.rgb[1]), normalised(output.rgb[2])};
+std::array<std::vector<double>, 3> transmittance_rows(
+    const Scene& scene, const std::vector<double>& wavelengths_nm) {
+  Scene even = scene;
+  even.sun.irradiance = Spectrum(1.0);
+  const auto of_sun = make_output(scene, wavelengths_nm).rgb,
+             of_even = make_output(even, wavelengths_nm).rgb;
+  std::array<std::vector<double>, 3> rows;
+  for (std::size_t c = 0; c < 3; ++c) {
+    // Of more than the eye sees, of wavelengths that are few, even light may have none either.
+    const std::vector<double> none(wavelengths_nm.size(), 0.0);
+    rows[c] = normalised(of_sun[c]).value_or(normalised(of_even[c]).value_or(none));
+  }
+  return rows;
 }
 
 }  // namespace cyanometer

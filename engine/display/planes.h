@@ -33,7 +33,9 @@ std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& prob
                                          const Output& output);
 
 /// By channel R, G, B and wavelength: transmittance in a channel is that of the sun's own
-/// light.
-std::array<std::vector<double>, 3> transmittance_rows(const Output& output);
+/// light; of even light where the sun has nearly none of the channel's colour, or less than
+/// none.
+std::array<std::vector<double>, 3> transmittance_rows(
+    const Scene& scene, const std::vector<double>& wavelengths_nm);
 
 }  // namespace cyanometer

@@ -16,6 +16,7 @@
 #include <new>
 
 #include "engine/attention.h"
+#include "engine/engine.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -232,6 +233,8 @@ auto with_own_errors(Read read) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const Cancelled&) {
+    throw;
+  } catch (const DeviceLost&) {  // of another's job, which the reading gave way to
     throw;
   } catch (const std::exception& error) {
     throw ImageError("The EXR cannot be read: " + std::string(error.what()));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/attention.h"
+#include "engine/display/displayed.h"
 #include "engine/image/formats.h"
 
 namespace cyanometer {
@@ -33,6 +34,14 @@ Rgbe to_rgbe(std::array<float, 3> rgb) {
   };
   return {mantissa(rgb[0]), mantissa(rgb[1]), mantissa(rgb[2]),
           static_cast<unsigned char>(exponent + 128)};
+}
+
+/// A colour beyond what the format holds keeps its luminance.
+std::array<float, 3> inside(float r, float g, float b) {
+  if (!(std::min({r, g, b}) < 0)) return {r, g, b};
+  const Triple colour = into_gamut({r, g, b});
+  return {static_cast<float>(colour[0]), static_cast<float>(colour[1]),
+          static_cast<float>(colour[2])};
 }
 
 /// Runs as (128 + length, value), the rest as (length, values...).
@@ -111,7 +120,7 @@ std::string encode_hdr(const Frame& frame, const Scene&) {
     look_up();
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
-      row[x] = to_rgbe({rgb[0][i], rgb[1][i], rgb[2][i]});
+      row[x] = to_rgbe(inside(rgb[0][i], rgb[1][i], rgb[2][i]));
     }
     append_row(file, row);
   }

@@ -33,6 +33,7 @@ SceneTraits traits_of(const Problem& problem) {
                      .thickness_km = problem.thickness_km,
                      .scattering_orders = problem.scattering_orders,
                      .varied_ground = problem.ground.has_value()};
+  traits.near_sun = problem.sun_distance_km > 0;
   if (problem.sun_disc_samples > 1)
     traits.sun_diameter_deg = 2 * problem.sun_angular_radius_rad * degree;
   for (const Medium& medium : problem.media) add_particles(medium, problem, traits);

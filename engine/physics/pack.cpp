@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/gauss_legendre.h"
 #include "engine/optics/profile.h"
@@ -204,7 +205,41 @@ void set_camera(Physics<Real>& p, const Problem& problem) {
   p.scene.pixel_rad = static_cast<Real>(pixel_rad(p));
 }
 
-/// Points spread evenly over the disc on Vogel's spiral, each with its share of the light.
+/// What makes the drawn disc send its irradiance, 1/sr: one over the integral of its shape over
+/// the projected solid angle, which is the square of the sine times pi.
+double disc_scale(double disc_sine, double pixel_rad, double exponent) {
+  static const GaussRule rule = gauss_legendre(24);
+  Physics<double> p;
+  double fade = p.disc_fade(disc_sine, pixel_rad), limb = disc_sine + fade / 2;
+  // Over t, the cube root of 1 - (sine / limb)^2: its powers leave no singularity at the limb.
+  auto t_at = [&](double sine) {
+    return std::cbrt(std::max(1 - std::pow(sine / limb, 2), 0.0));
+  };
+  double begin = t_at(1), middle = std::max(t_at(std::max(limb - fade, 0.0)), begin), sum = 0;
+  for (auto [from, to] : {std::pair{begin, middle}, std::pair{middle, 1.0}}) {
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+      double t = from + (to - from) * rule.nodes[i];
+      double sine = limb * std::sqrt(1 - t * t * t);
+      sum += rule.weights[i] * (to - from) * 3 * t * t *
+             p.disc_shape(sine, disc_sine, fade, glm::dvec4(exponent)).x;
+    }
+  }
+  return 1 / (std::numbers::pi * limb * limb * sum);
+}
+
+template <class Real>
+void append_disc_scale(Physics<Real>& p, const Problem& problem) {
+  glm::vec<3, Real> camera(0, 0, p.scene.planet_radius_km + p.scene.camera_altitude_km);
+  double disc_sine = p.disc_sine(p.sun_ray(camera, glm::vec<3, Real>(0)));
+  std::vector<double> scales;
+  for (double exponent : problem.limb_darkening_exponent) {
+    scales.push_back(disc_sine > 0 ? disc_scale(disc_sine, p.scene.pixel_rad, exponent) : 0);
+  }
+  append_groups(p.sun_points, scales);
+}
+
+/// Points spread evenly over the disc on Vogel's spiral, each with its share of the light: of
+/// the irradiance of a plane that faces the disc's centre.
 template <class Real>
 void append_sun_points(Physics<Real>& p, const Problem& problem, glm::dvec3 direction) {
   int count = problem.sun_disc_samples;
@@ -224,9 +259,10 @@ void append_sun_points(Physics<Real>& p, const Problem& problem, glm::dvec3 dire
     glm::dvec3 offset = std::sqrt(radius_squared(k)) * (across * std::cos(k * golden_angle) +
                                                         along * std::sin(k * golden_angle));
     p.sun_points.emplace_back(glm::vec<3, Real>(offset), Real(0));
+    double facing = std::sqrt(1 - radius_squared(k) * std::pow(p.scene.sun_sin_radius, 2));
     std::vector<double> weight(total.size());
     for (std::size_t w = 0; w < weight.size(); ++w) {
-      weight[w] = std::pow(1 - radius_squared(k), exponents[w] / 2) / total[w];
+      weight[w] = std::pow(1 - radius_squared(k), exponents[w] / 2) / total[w] / facing;
     }
     append_groups(p.sun_points, weight);
   }
@@ -252,6 +288,7 @@ void set_sun(Physics<Real>& p, const Problem& problem) {
     p.scene.sun_foot_km = static_cast<Real>(foot);
   }
   append_sun_points(p, problem, direction);
+  append_disc_scale(p, problem);
 }
 
 }  // namespace

@@ -111,6 +111,9 @@ struct Physics {
   Uint surface_texel(int i) const { return (*surface_texels)[i]; }
   Vec4 forward_gain(int, int) const { return Vec4(1); }
   Vec4 sun_weight(int k, int group) const { return sun_points[k * (GROUPS + 1) + 1 + group]; }
+  Vec4 disc_scale(int group) const {
+    return sun_points[scene.disc_points * (GROUPS + 1) + group];
+  }
 
 // In the order in which they build up.
 // clang-format off

@@ -201,14 +201,18 @@ class Planner {
   }
 
   std::unique_ptr<Judge> make_judge() const {
-    if (in_.scene.method.verify && !single_scattering(in_.scene)) {
+    const SceneTraits traits = traits_of(problem_);
+    // What all methods of tables do alike, the tables of `moments` can't tell: all further
+    // light comes from the middle of a large sun.
+    const bool walk = in_.scene.method.verify || traits.sun_diameter_deg > 1;
+    if (walk && !single_scattering(in_.scene)) {
       return std::make_unique<WalkJudge>(method("path").description().ladder.front(), in_.probe,
                                          few_,
                                          in_.scene.method.max_error.value_or(usual_error));
     }
     const Method& best = method(single_scattering(in_.scene) ? "raymarch" : "moments");
     auto judge = quick_judge(best);
-    if (!single_scattering(in_.scene) && moments_may_fail(traits_of(problem_))) {
+    if (!single_scattering(in_.scene) && moments_may_fail(traits)) {
       constexpr double walks = 1 << 15;  // of all rays together, some tenths of a second
       double each = std::exp2(std::ceil(std::log2(walks / std::min(in_.rays, 256.0))));
       judge->check(walk_twice(in_.probe, method("path").description().ladder.front(), few_,

@@ -32,15 +32,8 @@ ObjectOf<Scene> make_scene_members() {
           .group("picture"));
 }
 
-}  // namespace
-
-const Object<Scene>& scene_members() {
-  static const ObjectOf<Scene> members = make_scene_members();
-  return *members;
-}
-
-Scene read_scene(const Json& document) {
-  Json whole = expanded(document);
+/// @param whole  which no preset stands behind any more
+Scene read_expanded(Json whole) {
   // A part that is left out is not the default of its struct: its defaults may follow from
   // others.
   for (const std::string& part : scene_members().names())
@@ -48,6 +41,19 @@ Scene read_scene(const Json& document) {
   Reading reading;
   scene_members().read_whole(reading.scene, whole, At{reading, ""});
   return reading.scene;
+}
+
+}  // namespace
+
+const Object<Scene>& scene_members() {
+  static const ObjectOf<Scene> members = make_scene_members();
+  return *members;
+}
+
+Scene read_scene(const Json& document) { return read_expanded(expanded(document)); }
+
+Scene read_scene(const Json& document, const Json& patch) {
+  return read_expanded(expanded(document, patch));
 }
 
 Json merge(const Json& document, const Json& patch) {

@@ -2,6 +2,7 @@
 // from one description of the members (`members.h`).
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
@@ -23,6 +24,9 @@ struct SceneError : std::runtime_error {
   std::string allowed;  ///< in words: "a number from 1 to 1e7"
 };
 
+/// The longest text that is parsed.
+inline constexpr std::size_t most_json_bytes = std::size_t{8} << 20;
+
 /// Parses bytes as strict UTF-8 JSON: no duplicate keys, bounded depth and size, finite
 /// numbers.
 /// @throws SceneError with pointer "" (or that of the duplicate key)
@@ -31,6 +35,11 @@ nlohmann::json parse_json(std::string_view bytes);
 /// Merges `document` over its preset, validates it and resolves every default.
 /// @throws SceneError
 Scene read_scene(const nlohmann::json& document);
+/// The same of a document and a merge patch, an object, which is merged over all that the
+/// document says together with its preset: a part may leave its type to the preset. A preset
+/// that the patch names stands for the document's.
+/// @throws SceneError
+Scene read_scene(const nlohmann::json& document, const nlohmann::json& patch);
 
 /// The document that a link's query says: dotted paths set members, values are JSON where they
 /// parse, else strings.
@@ -44,7 +53,8 @@ nlohmann::json document_from_query(
 nlohmann::json canonical(const Scene& scene);
 
 /// RFC 7396 with the contract's additions (spectra, lists and objects of another `type` are
-/// replaced whole, an alternative form drops the inherited one, null restores a default).
+/// replaced whole, an alternative form drops the inherited one, null restores a default). Of a
+/// part whose type only a preset would tell it knows no forms.
 nlohmann::json merge(const nlohmann::json& document, const nlohmann::json& patch);
 
 /// JSON Schema (2020-12) of the document, with titles, units, ranges, defaults and slider

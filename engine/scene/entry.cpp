@@ -7,7 +7,7 @@ namespace {
 std::string unit_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> suffixes{
       {"_per_km", "1/km"}, {"_km", "km"}, {"_deg", "deg"}, {"_nm", "nm"}, {"_um", "um"},
-      {"_pa", "Pa"},       {"_k", "K"},   {"_ms", "ms"},   {"_ev", "EV"}};
+      {"_pa", "Pa"},       {"_k", "K"},   {"_ms", "ms"},   {"_ev", "EV"}, {"_m_per_s", "m/s"}};
   for (const auto& [suffix, unit] : suffixes)
     if (name.ends_with(suffix)) return unit;
   return "";

@@ -127,7 +127,7 @@ ObjectOf<Image> image_members() {
                              {"ground", &Show::ground},
                              {"clipped", &Show::clipped}}),
              "Show",
-             "What is shown; clipped paints the pixels that are too bright or too dark."),
+             "What is shown; clipped paints the pixels that are too bright to be shown."),
       Rule<Image>(check_shape));
 }
 

@@ -5,7 +5,6 @@ namespace cyanometer {
 namespace {
 
 constexpr std::size_t deepest_level = 32;
-constexpr std::size_t largest_bytes = 8u << 20;
 
 /// The parser quotes bytes that may be no UTF-8.
 std::string printable(std::string text) {
@@ -85,10 +84,10 @@ class Builder {
 }  // namespace
 
 Json parse_json(std::string_view bytes) {
-  if (bytes.size() > largest_bytes)
-    throw SceneError("", "", "at most " + std::to_string(largest_bytes) + " bytes",
+  if (bytes.size() > most_json_bytes)
+    throw SceneError("", "", "at most " + std::to_string(most_json_bytes) + " bytes",
                      "The document has " + std::to_string(bytes.size()) + " bytes, more than " +
-                         std::to_string(largest_bytes) + ".");
+                         std::to_string(most_json_bytes) + ".");
   Builder builder;
   Json::sax_parse(bytes, &builder);
   return builder.take();

@@ -97,4 +97,12 @@ Json expanded(const Json& document) {
               document);
 }
 
+Json expanded(const Json& document, const Json& patch) {
+  const auto preset = patch.find("preset");
+  if (preset == patch.end() || !document.is_object()) return over(expanded(document), patch);
+  Json other = document;
+  other["preset"] = *preset;
+  return over(expanded(other), patch);
+}
+
 }  // namespace cyanometer

@@ -16,5 +16,7 @@ const nlohmann::json& expanded_preset(std::string_view name);
 /// The document merged over its preset.
 /// @throws SceneError where it is no object or names no preset
 nlohmann::json expanded(const nlohmann::json& document);
+/// The same, and the patch over it; a preset that the patch names stands for the document's.
+nlohmann::json expanded(const nlohmann::json& document, const nlohmann::json& patch);
 
 }  // namespace cyanometer

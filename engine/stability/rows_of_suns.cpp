@@ -202,11 +202,13 @@ struct DiscPoint {
   double elevation_deg, azimuth_deg, weight;
 };
 
-/// Equal areas in three rings of Gauss-Legendre radii, eight points each.
+/// Equal solid angles in three rings of Gauss-Legendre radii, eight points each. Together they
+/// light a plane that faces the disc's centre as one sun does.
 std::vector<DiscPoint> disc_points(double elevation_deg, double diameter_deg) {
   constexpr std::array<double, 3> node{0.1127016653792583, 0.5, 0.8872983346207417},
       weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  double edge = 1 - std::cos(diameter_deg / 2 * degree), e = elevation_deg * degree;
+  double edge = 1 - std::cos(diameter_deg / 2 * degree), e = elevation_deg * degree,
+         facing = 1 - edge / 2;  // mean of the cosine
   std::vector<DiscPoint> points;
   for (int ring = 0; ring < 3; ++ring) {
     double radius = std::acos(1 - edge * node[ring]);  // areas of caps go with 1 - cos
@@ -217,7 +219,7 @@ std::vector<DiscPoint> disc_points(double elevation_deg, double diameter_deg) {
       double z = along * std::sin(e) + up * std::cos(e),
              y = along * std::cos(e) - up * std::sin(e);
       points.push_back(
-          {std::asin(z) / degree, std::atan2(aside, y) / degree, weight[ring] / 8});
+          {std::asin(z) / degree, std::atan2(aside, y) / degree, weight[ring] / 8 / facing});
     }
   }
   return points;

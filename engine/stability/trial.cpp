@@ -207,7 +207,7 @@ std::optional<Trial::Halves> Trial::compared(const json& document,
     halves.a = std::move(reference.halves[0]);
     halves.b = std::move(reference.halves[1]);
   }
-  halves.values = look(document, directions).radiance;
+  halves.values = look(document, directions).relative;
   return halves;
 }
 

@@ -194,15 +194,21 @@ std::string surface_key(const MapSurface& surface) {
 
 std::shared_ptr<const SurfaceImages> surface_images(const MapSurface& surface) {
   Library& all = library();
-  std::lock_guard lock(all.mutex);
+  std::unique_lock lock(all.mutex);
   MapFiles files = files_of(all.folder, surface);
   std::string key = files.key();
-  auto found = std::ranges::find(all.kept, key, [](const auto& each) { return each->key; });
-  if (found != all.kept.end()) {
+  auto known = [&]() -> std::shared_ptr<const SurfaceImages> {
+    auto found = std::ranges::find(all.kept, key, [](const auto& each) { return each->key; });
+    if (found == all.kept.end()) return nullptr;
     all.kept.splice(all.kept.begin(), all.kept, found);
     return all.kept.front();
-  }
+  };
+  if (auto images = known()) return images;
+  // Reading gives way to shorter jobs on this thread, which may want a map too.
+  lock.unlock();
   auto images = load(key, files);
+  lock.lock();
+  if (auto other = known()) return other;
   keep(all, images);
   return images;
 }

@@ -8,6 +8,7 @@
 
 #include "engine/fingerprint.h"
 #include "engine/scene/document.h"
+#include "engine/surface/surface_pass.h"
 #include "server/batch/whole_file.h"
 #include "server/routes/frame.h"
 
@@ -17,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 std::string key_of(const BatchFrame& frame) {
-  return fingerprint(version() + frame.asked.canonical);
+  return fingerprint(version() + frame.asked.canonical + ground_revision(frame.asked.scene));
 }
 
 json line_of(const BatchFrame& frame, const Plan& plan, const EncodedFrame& made,

@@ -83,7 +83,7 @@ void add_attribute(CLI::App& app) {
   command->footer(
       "Of the setting that the scene's method asks for, or that auto chooses: its error "
       "against\n"
-      "path in the contract's measure, and what each cause alone is worth. Quadrature is what\n"
+      "path in the README's measure, and what each cause alone is worth. Quadrature is what\n"
       "four times as many nodes change, tables what twice as large ones do, float what "
       "another\n"
       "rounding of every operation does (on software devices). Shares need not add up.\n"

@@ -80,7 +80,7 @@ void add_bench(CLI::App& app) {
   command->add_option("--json", arguments->json_output, "Also as JSON in this file");
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(
-      "Methods at their defaults; `chart` varies them. Errors are in the contract's measure\n"
+      "Methods at their defaults; `chart` varies them. Errors are in the README's measure\n"
       "against path, at three wavelengths; times are of frames with tables made, and of the "
       "tables.\n"
       "Example: cyanometer bench --preset earth --preset mars_sunset");

@@ -105,7 +105,8 @@ void add_chart(CLI::App& app) {
   command->add_option(
       "scene", arguments->files,
       "Scene documents, - is standard input; without any, presets that span what there is");
-  command->add_option("--preset", arguments->presets, "Presets; may be repeated");
+  command->add_option("--preset", arguments->presets, "Presets; may be repeated")
+      ->check(CLI::IsMember(preset_names()));
   command->add_option("-o,--output", arguments->folder, "Folder; what is there goes on")
       ->required();
   add_chart_options(*command, settings);
@@ -116,7 +117,7 @@ void add_chart(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(
-      "Errors are in the contract's measure against path; where a scene leaves its "
+      "Errors are in the README's measure against path; where a scene leaves its "
       "wavelengths\n"
       "open, three are charted. Times are of the device. A run that was stopped goes on.\n"
       "Example: cyanometer chart my_sky.json -o my_chart");

@@ -1,6 +1,7 @@
 #include "server/commands/chart_options.h"
 
 #include "engine/cache_folder.h"
+#include "server/commands/command.h"
 
 namespace cyanometer {
 
@@ -22,7 +23,8 @@ void add_reference_options(CLI::App& command, ReferenceGoal& goal,
 }
 
 void add_chart_options(CLI::App& command, ChartSettings& settings) {
-  command.add_option("--method", settings.methods, "Only these; may be repeated");
+  command.add_option("--method", settings.methods, "Only these; may be repeated")
+      ->check(CLI::IsMember(method_names()));
   add_reference_options(command, settings.reference, settings.references);
   command.add_option("--pixels", settings.pixels, "Of the frames that are timed")
       ->check(CLI::Range(64, 1 << 24))

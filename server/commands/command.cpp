@@ -114,6 +114,12 @@ std::vector<std::string> preset_names() {
   return names;
 }
 
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const MethodDescription& method : methods()) names.push_back(method.name);
+  return names;
+}
+
 Watch command_watch() {
   // As the first process of a container, it would not be stopped by what it does not take.
   for (const int number : {SIGINT, SIGTERM})

@@ -34,7 +34,7 @@ void compare_scenes(const CompareArguments& arguments, const std::string& a) {
       read_compare_request({{"a", parse_json(a)}, {"b", read_document(arguments.b)}});
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
-  const FramePair frames = render_pair(engine, asked.a, asked.b, watch);
+  const FramePair frames = render_pair(engine, asked, watch);
   print(compare(frames, watch));
   if (!arguments.output.empty()) paint(arguments, error_map(frames), asked.b.image);
 }

@@ -52,7 +52,9 @@ void add_composite(CLI::App& app) {
       ->required();
   command
       ->add_option("--scale", arguments->scale,
-                   "What 1.0 in the picture is worth in the unit of this program's own files")
+                   "What 1.0 in the picture is worth in the unit of this program's own files: "
+                   "1.0 of those is 1000 cd/m^2, or the picture's whiteLuminance; with colour "
+                   "channels, the scene's unit of spectral radiance")
       ->check(CLI::Range(least_scale, most_scale));
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(

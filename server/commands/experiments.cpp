@@ -31,7 +31,7 @@ void run_experiments(const ExperimentArguments& arguments) {
       "# The questions that this program grew out of\n\n(`cyanometer experiments -o folder`, "
       "on " +
       engine.device().name +
-      ".) Errors are in the contract's measure, of order one against the finest quadrature, of "
+      ".) Errors are in the README's measure, of order one against the finest quadrature, of "
       "more against the finest moment tables.\n";
   double done = 0;
   for (const Experiment& experiment : experiments()) {

@@ -7,6 +7,7 @@
 #include "engine/image/encode.h"
 #include "engine/scene/document.h"
 #include "server/commands/command.h"
+#include "server/routes/scene_request.h"
 
 namespace cyanometer {
 namespace {
@@ -19,27 +20,26 @@ const Encoding* encoding_of_extension(const std::string& path) {
   return nullptr;
 }
 
-bool names_format(const nlohmann::json& document) {
-  return document.is_object() && document.contains("image") && document["image"].is_object() &&
-         document["image"].contains("format");
-}
-
 }  // namespace
 
-Scene scene_for_file(nlohmann::json document, const std::string& path) {
+nlohmann::json document_for_file(const nlohmann::json& document, const std::string& path) {
   const Encoding* wanted = encoding_of_extension(path);
-  if (!wanted && path != "-") {
-    throw CommandError(exit_refused, path + " has no extension of a format that is known here");
-  }
-  if (wanted && !names_format(document)) {
-    document = merge(document, {{"image", {{"format", wanted->name}}}});
-  }
-  Scene scene = read_scene(document);
-  if (wanted && scene.image.format != wanted->format) {
-    throw CommandError(exit_refused, "the scene asks for " +
-                                         std::string(encoding(scene.image.format).name) + ", " +
-                                         path + " for " + std::string(wanted->name));
-  }
+  if (wanted) return with_usual_format(document, wanted->name);
+  if (path == "-") return document;
+  throw CommandError(exit_refused, path + " has no extension of a format that is known here");
+}
+
+void check_file(const Scene& scene, const std::string& path) {
+  const Encoding* wanted = encoding_of_extension(path);
+  if (!wanted || scene.image.format == wanted->format) return;
+  throw CommandError(exit_refused, "the scene asks for " +
+                                       std::string(encoding(scene.image.format).name) + ", " +
+                                       path + " for " + std::string(wanted->name));
+}
+
+Scene scene_for_file(const nlohmann::json& document, const std::string& path) {
+  Scene scene = read_scene(document_for_file(document, path));
+  check_file(scene, path);
   return scene;
 }
 

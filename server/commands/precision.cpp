@@ -50,7 +50,7 @@ void add_precision(CLI::App& app) {
   command->footer(
       "Methods at their defaults, at three wavelengths, with every operation rounded up, down\n"
       "and towards zero against all rounded to nearest: the largest error of the three in the\n"
-      "contract's measure, of random walks their mean difference and its standard error.\n"
+      "README's measure, of random walks their mean difference and its standard error.\n"
       "Software devices only: their rounding can be turned.\n"
       "Example: cyanometer precision --preset earth --preset titan");
   command->callback([arguments] { precision(*arguments); });

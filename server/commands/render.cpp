@@ -17,7 +17,6 @@
 #include "server/commands/command.h"
 #include "server/commands/image_file.h"
 #include "server/routes/frame_patches.h"
-#include "server/routes/reading.h"
 
 namespace cyanometer {
 namespace {
@@ -65,18 +64,19 @@ std::function<void(const BatchProgress&)> progress_shower() {
 
 Batch batch_of(const RenderArguments& arguments, const FilePattern& pattern,
                const Shard& shard) {
-  const nlohmann::json scene = read_document(arguments.scene);
-  const auto patches = read_frame_patches(scene, read_document(arguments.frames));
+  const auto scene = document_for_file(read_document(arguments.scene), arguments.output);
+  read_scene(scene);  // what is wrong with it is said of it, not of the first frame
+  const auto patches = read_frame_patches(scene, read_document(arguments.frames), "");
   Batch batch;
   for (int i = 0; i < patches.count; ++i) {
     if (shard.holds(i)) batch.numbers.push_back(i);
   }
   batch.frame = [=](int number) {
     BatchFrame frame{number, pattern.file(number), patches.patch(number), {}};
-    within(patches.pointer(number), [&] {
-      frame.asked.scene = scene_for_file(merge(scene, frame.patch), frame.file.string());
+    patches.within(number, [&] {
+      frame.asked = scene_request(read_scene(scene, frame.patch));
+      check_file(frame.asked.scene, frame.file.string());
     });
-    frame.asked.canonical = canonical(frame.asked.scene).dump();
     return frame;
   };
   batch.device = arguments.device;

@@ -75,7 +75,8 @@ void add_tables(CLI::App& app) {
       app.add_subcommand("tables", "The tables of the method bruneton for a scene, as PNGs");
   const auto arguments = std::make_shared<TablesArguments>();
   command->add_option("scene", arguments->scene, "Scene document; - is standard input");
-  command->add_option("--preset", arguments->preset, "Instead: a preset");
+  command->add_option("--preset", arguments->preset, "Instead: a preset")
+      ->check(CLI::IsMember(preset_names()));
   command->add_option("-o,--output", arguments->folder, "Folder")->required();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(

@@ -193,8 +193,7 @@ Framing frame_body(const Head& head, std::size_t most_body_bytes) {
     throw HttpProblem(400, "The body's length is given twice.");
   }
   if (coded) throw HttpProblem(411, "Send the body with a Content-Length, not in chunks.");
-  if (lengths == 0 &&
-      (head.method == "POST" || head.method == "PUT" || head.method == "PATCH")) {
+  if (lengths == 0 && head.method == "POST") {
     throw HttpProblem(411, "A body needs a Content-Length.");
   }
   const auto length = lengths == 0 ? 0 : parse_length(join(headers, "content-length"));

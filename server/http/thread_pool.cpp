@@ -25,15 +25,21 @@ void ThreadPool::enqueue(std::function<void()> task) {
   if (tasks_.size() < idle_) {
     tasks_.push_back(std::move(task));
     wake_.notify_one();
-  } else if (threads_.size() < most_threads_) {
-    tasks_.push_back(std::move(task));
-    threads_.emplace_back([this] { work(); });
-  } else {
-    lock.unlock();
-    overloaded_here = true;
-    task();
-    overloaded_here = false;
+    return;
   }
+  if (threads_.size() < most_threads_) {
+    try {
+      threads_.emplace_back([this] { work(); });
+      tasks_.push_back(std::move(task));
+      return;
+    } catch (const std::system_error&) {
+      // The system has no further thread for this process: as where there are enough.
+    }
+  }
+  lock.unlock();
+  overloaded_here = true;
+  task();
+  overloaded_here = false;
 }
 
 void ThreadPool::shutdown() {

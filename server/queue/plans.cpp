@@ -1,5 +1,6 @@
 #include "server/queue/plans.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/planner/nearby.h"
@@ -23,7 +24,7 @@ Plans::Planned Plans::get(const Scene& scene, const std::string& client, const W
   {
     const std::lock_guard lock(mutex_);
     const auto found = known_.find(key);
-    if (found != known_.end()) return {found->second, 0, std::nullopt};
+    if (found != known_.end()) return {.plan = found->second};
   }
   const auto make = [&](const Watch& shared) {
     Planned planned;
@@ -32,17 +33,21 @@ Plans::Planned Plans::get(const Scene& scene, const std::string& client, const W
                                       .watch = shared,
                                       .work = [&](Engine& engine, const Watch& w) {
                                         planned.plan = engine.plan(scene, w);
+                                        planned.lasting = queue_.ready();
                                       }});
+    planned.queue_ms = ticket.queued_ms + ticket.given_away_ms;
     planned.place = ticket.place;
     return planned;
   };
   const auto landed = flights_.get(key, watch, make);
   Planned planned = *landed.value;
   if (landed.joined) planned.place.reset();
-  planned.ms =
+  const double took =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
           .count();
-  if (key.size() > longest_scene) return planned;
+  planned.queue_ms = std::min(planned.queue_ms, took);  // less, where it began for another
+  planned.ms = took - planned.queue_ms;
+  if (!planned.lasting || key.size() > longest_scene) return planned;
   const std::lock_guard lock(mutex_);
   if (known_.size() >= most_plans) known_.clear();
   known_.emplace(key, planned.plan);

@@ -18,8 +18,10 @@ class Plans {
   explicit Plans(RenderQueue& queue) : queue_(queue) {}
   struct Planned {
     Plan plan;
-    double ms = 0;               ///< that it took to get
-    std::optional<Place> place;  ///< in the queue, where it was waited for there
+    double ms = 0;                    ///< that it took to get, but for waiting
+    double queue_ms = 0;              ///< that it waited in the queue, and gave way to others
+    std::optional<Place> place = {};  ///< in the queue, where it was waited for there
+    bool lasting = true;  ///< false where the device was not ready: its profile may change
   };
   /// @throws as RenderQueue::run
   Planned get(const Scene& scene, const std::string& client, const Watch& watch);

@@ -232,17 +232,24 @@ void RenderQueue::set_engine(std::unique_ptr<Engine> engine) {
 }
 
 bool RenderQueue::fits(const Entry& entry) const {
-  return frame_bytes_alive_ == 0 ||
+  return entry.job.frame_bytes == 0 || frame_bytes_alive_ == 0 ||
          frame_bytes_alive_ + entry.job.frame_bytes <= options_.frame_bytes;
+}
+
+/// The next in turn; while that waits for memory, what needs none. Nothing that needs some: a
+/// large frame would never see enough of it free.
+RenderQueue::Waiting::iterator RenderQueue::next_that_fits() {
+  const auto first = waiting_.begin();
+  if (first == waiting_.end() || fits(*first->second)) return first;
+  return std::ranges::find_if(
+      waiting_, [](const auto& each) { return each.second->job.frame_bytes == 0; });
 }
 
 std::shared_ptr<RenderQueue::Entry> RenderQueue::next() {
   std::unique_lock lock(mutex_);
-  work_here_.wait(lock, [&] {
-    return stopping_ || (!waiting_.empty() && fits(*waiting_.begin()->second));
-  });
+  work_here_.wait(lock, [&] { return stopping_ || next_that_fits() != waiting_.end(); });
   if (stopping_) return nullptr;
-  const auto entry = waiting_.begin()->second;
+  const auto entry = next_that_fits()->second;
   turn_ = std::max(turn_, entry->place.first);
   start(*entry);
   if (waiting_.empty()) last_turn_.clear();

@@ -109,6 +109,7 @@ class RenderQueue {
  private:
   struct Entry;
   using Clock = std::chrono::steady_clock;
+  using Waiting = std::map<Place, std::shared_ptr<Entry>>;
   std::shared_ptr<Entry> enter(Job job);
   std::optional<QueueFull::Whose> full(const std::string& client) const;
   void admit(const std::string& client);
@@ -123,6 +124,7 @@ class RenderQueue {
   std::shared_ptr<Entry> next();
   std::shared_ptr<Entry> much_shorter_than(const Entry& running);
   bool fits(const Entry& entry) const;
+  Waiting::iterator next_that_fits();
   std::shared_ptr<void> count_alive(std::size_t bytes);
   void put(const std::shared_ptr<Entry>& entry);
   void remove(const Entry& entry);
@@ -141,7 +143,7 @@ class RenderQueue {
   std::condition_variable work_here_, someone_waits_;
   /// A client's n-th waiting job has its turn n rounds from now (start-time fair queueing with
   /// equal weights [Goyal, Vin and Cheng 1996]).
-  std::map<Place, std::shared_ptr<Entry>> waiting_;
+  Waiting waiting_;
   std::map<std::string, std::uint64_t> last_turn_;
   std::map<std::string, std::size_t> waiting_of_;  ///< jobs by client
   std::uint64_t turn_ = 0, arrivals_ = 0;

@@ -57,10 +57,10 @@ Scene read_scene_at(const std::string& pointer, const json& document) {
 void add_colours(const Scene& scene, const Radiances& radiances, json& out) {
   const RayColours colours(scene, radiances.wavelengths_nm);
   json rgb = json::array(), luminance = nullptr;
-  for (const auto& ray : radiances.radiance) rgb.push_back(colours.rgb(ray));
+  for (const auto& ray : radiances.relative) rgb.push_back(colours.rgb(ray));
   if (scene.spectrum.colour == Colour::cie) {
     luminance = json::array();
-    for (const auto& xyz : colours.error_channels(radiances.radiance)) {
+    for (const auto& xyz : colours.error_channels(radiances.relative)) {
       luminance.push_back(xyz[1] * colours.output().white_luminance);
     }
   }
@@ -122,6 +122,21 @@ CompareRequest read_compare_request(const json& document) {
   CompareRequest out{scene_at("a"), scene_at("b")};
   check_comparable(out.a, out.b);
   return out;
+}
+
+FramePair render_pair(Engine& engine, const CompareRequest& asked, const Watch& watch) {
+  FramePair frames;
+  // What is refused of b is refused of it alone too; all else is a's.
+  try {
+    within("/a", [&] { frames = render_pair(engine, asked.a, asked.b, watch); });
+  } catch (const SceneError&) {
+    within("/b", [&] { engine.plan(asked.b, watch); });
+    throw;
+  } catch (const OverLimit&) {
+    within("/b", [&] { engine.render(asked.b, watch); });
+    throw;
+  }
+  return frames;
 }
 
 json comparison_document(const Comparison& comparison) {

@@ -34,6 +34,9 @@ struct CompareRequest {
 /// @throws SceneError with pointers into the body
 CompareRequest read_compare_request(const nlohmann::json& document);
 
+/// Their frames. @throws SceneError, OverLimit, with pointers into the body, and as render_pair
+FramePair render_pair(Engine& engine, const CompareRequest& asked, const Watch& watch);
+
 /// The answer of /v1/compare.
 nlohmann::json comparison_document(const Comparison& comparison);
 

@@ -57,7 +57,7 @@ Answer compare_scenes(const Request& request, Service& service, bool picture) {
        .frame_bytes = frame_bytes(asked.a) + frame_bytes(asked.b) + working_bytes(asked.b),
        .watch = watch,
        .work = [&](Engine& engine, const Watch& w) {
-         frames = render_pair(engine, asked.a, asked.b, w);
+         frames = render_pair(engine, asked, w);
        }});
   if (!picture) return figures_answer(compare(frames, watch));
   return picture_answer(error_picture(error_map(frames), frames.b.width, frames.b.height));

@@ -1,5 +1,6 @@
 // POST /v1/composite: a client's picture with the scene's air laid over it.
 #include <charconv>
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "engine/attention.h"
@@ -19,6 +20,8 @@ namespace cyanometer {
 namespace {
 
 using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
 
 /// A scene, and what 1.0 in the picture is worth in the unit of the frame's files.
 struct Asked {
@@ -97,6 +100,7 @@ Answer composite(const Request& request, Service& service) {
   const Asked asked = read_asked(request, service);
   const Scene& scene = asked.scene.scene;
   Frame frame;
+  double plan_ms = 0;
   const Ticket ticket =
       service.queue.run({.client = request.peer,
                          .frame_bytes = frame_bytes(scene) + picture_bytes(scene),
@@ -106,12 +110,16 @@ Answer composite(const Request& request, Service& service) {
                            // pictures.
                            const Picture picture = of_picture(
                                [&] { return read_picture(request.body, scene, asked.scale); });
+                           const auto start = Clock::now();
                            const Plan plan = engine.plan(scene, picture, w);
+                           plan_ms = Milliseconds(Clock::now() - start).count();
                            check_cost(plan, service.config);
                            frame = engine.composite(scene, picture, plan, w);
                          }});
-  const PlannedFrame planned{asked.scene, frame.plan,
-                             composite_tag(asked, frame.plan, request, service)};
+  const PlannedFrame planned{.asked = asked.scene,
+                             .plan = frame.plan,
+                             .tag = composite_tag(asked, frame.plan, request, service),
+                             .plan_ms = plan_ms};
   const Attention attention(watch);
   const auto [encoded, memory] = service.frames.encoded(frame, scene, ticket);
   Answer answer;

@@ -15,6 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int most_offset_min = 14 * 60;
+/// As of sun.place.
+constexpr double most_latitude_deg = 90, most_longitude_deg = 360;
 
 double read_number(const json& document, const std::string& name, double limit) {
   const std::string pointer = "/" + name;
@@ -40,8 +42,8 @@ int read_offset(const json& document) {
 
 SunDay read_day(const json& document) {
   check_members(document, "", {"latitude_deg", "longitude_deg", "date", "utc_offset_min"});
-  const double latitude = read_number(document, "latitude_deg", 90);
-  const double longitude = read_number(document, "longitude_deg", 180);
+  const double latitude = read_number(document, "latitude_deg", most_latitude_deg);
+  const double longitude = read_number(document, "longitude_deg", most_longitude_deg);
   const int offset = read_offset(document);
   const std::string allowed = "a date from 1900 to 2100, such as 2024-06-20";
   const auto date = document.find("date");
@@ -83,8 +85,8 @@ json day_operation() {
       {"type", "object"},
       {"required", {"latitude_deg", "longitude_deg", "date"}},
       {"properties",
-       {{"latitude_deg", number(90)},
-        {"longitude_deg", number(180)},
+       {{"latitude_deg", number(most_latitude_deg)},
+        {"longitude_deg", number(most_longitude_deg)},
         {"date", {{"type", "string"}, {"format", "date"}}},
         {"utc_offset_min",
          {{"type", "integer"},

@@ -43,7 +43,7 @@ std::string server_timing(const PlannedFrame& planned, const Frames::Got& got,
     if (got.origin == Frames::Origin::rendered) service.metrics.stage(name, ms / 1000);
     out += (out.empty() ? "" : ", ") + name + ";dur=" + fixed(ms);
   };
-  add("queue", kept ? 0 : frame.queue_ms);
+  add("queue", planned.queue_ms + (kept ? 0 : frame.queue_ms));
   add("prepare", planned.plan_ms + (kept ? 0 : frame.prepare_ms));
   add("render", kept ? 0 : frame.render_ms);
   add("encode", kept ? 0 : frame.encode_ms);
@@ -78,8 +78,12 @@ PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Se
                         const Watch& watch) {
   const auto planned = service.plans.get(asked.scene, client, watch);
   check_cost(planned.plan, service.config);
-  return {asked, planned.plan, frame_tag(asked, planned.plan, service), planned.ms,
-          planned.place};
+  return {.asked = asked,
+          .plan = planned.plan,
+          .tag = frame_tag(asked, planned.plan, service),
+          .plan_ms = planned.ms,
+          .queue_ms = planned.queue_ms,
+          .place = planned.place};
 }
 
 Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Service& service,
@@ -89,20 +93,21 @@ Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Se
                              .plan = planned.plan,
                              .tag = planned.tag,
                              .client = client,
-                             .frame_bytes = frame_bytes(scene),
+                             .frame_bytes = frame_bytes(scene, planned.plan),
                              .place = planned.place,
                              .keep = keep && !scene.method.max_ms},
                             watch);
 }
 
 Fields planned_fields(const PlannedFrame& planned) {
-  const auto& [asked, plan, tag, plan_ms, place] = planned;
-  return {{"Content-Type", std::string(encoding(asked.scene.image.format).media_type)},
+  const Scene& scene = planned.asked.scene;
+  const Plan& plan = planned.plan;
+  return {{"Content-Type", std::string(encoding(scene.image.format).media_type)},
           {"Cyanometer-Method", plan.method},
           {"Cyanometer-Options", options_text(plan.options)},
           {"Cyanometer-Error", shortest(plan.expected_error)},
           {"Cyanometer-Met", plan.met ? "true" : "false"},
-          {"Cyanometer-Atmosphere", atmosphere_key(asked.scene)}};
+          {"Cyanometer-Atmosphere", atmosphere_key(scene)}};
 }
 
 Fields frame_fields(const PlannedFrame& planned, const Frames::Got& got, Service& service) {
@@ -126,7 +131,8 @@ nlohmann::json frame_operation() {
   openapi::add_header(responses, "Server-Timing", "queue, prepare, render, encode; dur in ms.");
   openapi::add_header(responses, "Cyanometer-Method", "The method that was used.");
   openapi::add_header(responses, "Cyanometer-Options", "Its options: name=value;...");
-  openapi::add_header(responses, "Cyanometer-Error", "A bound that holds in 95 % of frames.");
+  openapi::add_header(responses, "Cyanometer-Error",
+                      "A bound meant to hold in 95 % of frames.");
   openapi::add_header(responses, "Cyanometer-Met", "false where the request could not be met.");
   openapi::add_header(responses, "Cyanometer-Exposure", "The exposure used, in stops.");
   openapi::add_header(responses, "Cyanometer-Atmosphere", "Equal keys share tables.");

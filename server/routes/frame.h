@@ -17,7 +17,8 @@ struct PlannedFrame {
   Plan plan;
   std::string tag;  ///< over scene, the files of its maps, plan, version and device
   double plan_ms = 0;
-  std::optional<Place> place = {};  ///< where the plan was waited for
+  double queue_ms = 0;              ///< waited for the plan
+  std::optional<Place> place = {};  ///< where that was
 };
 
 /// @throws OverLimit also where the frame is expected to take too long, and as RenderQueue::run

@@ -14,6 +14,7 @@ using nlohmann::json;
 using Path = std::vector<std::string>;
 
 struct Sweep {
+  std::string pointer;  ///< to where it goes
   Path path;
   double from = 0, to = 0;
 
@@ -43,27 +44,80 @@ json member(const json& document, const Path& path) {
   return *at;
 }
 
-/// @param document  of the scene where the sweep begins
+/// @param start  the canonical scene where the sweep begins, whose document has what is not
+///               written there: the sun's place
 Sweep sweep_to(const std::string& dotted, const json& to, const std::string& at,
-               const json& document) {
+               const json& start, const json& document) {
   if (!to.is_number()) refuse(at, to, "a number");
   const Path path = split(dotted);
-  const json from = member(document, path);
+  json from = member(start, path);
+  if (!from.is_number()) from = member(document, path);
   if (!from.is_number()) {
     throw SceneError(at, "", "a member that is a number in the scene",
                      at.substr(1) + " goes to a number from what is none in the scene.");
   }
-  return {path, from.get<double>(), to.get<double>()};
+  return {at, path, from.get<double>(), to.get<double>()};
 }
 
-json patch_at(const std::vector<Sweep>& sweeps, double t) {
-  json patch = json::object();
+json patch_at(const std::vector<Sweep>& sweeps, double t, json patch = json::object()) {
   for (const auto& sweep : sweeps) {
     json* place = &patch;
     for (const auto& name : sweep.path) place = &(*place)[name];
     *place = sweep.at(t);
   }
   return patch;
+}
+
+/// The merge patch that makes the one of the other.
+json patch_between(const json& from, const json& to) {
+  if (!from.is_object() || !to.is_object()) return to;
+  json patch = json::object();
+  for (const auto& [name, value] : to.items()) {
+    if (!from.contains(name)) {
+      patch[name] = value;
+    } else if (from[name] != value) {
+      patch[name] = patch_between(from[name], value);
+    }
+  }
+  for (const auto& [name, value] : from.items()) {
+    if (!to.contains(name)) patch[name] = nullptr;
+  }
+  return patch;
+}
+
+/// What the numbers take away when they are set, and what follows from that: an angle of a sun
+/// that stands by its place takes the other angle and the camera's foot point.
+json taken_away(const json& scene, const json& start, const std::vector<Sweep>& sweeps) {
+  return patch_between(canonical(read_scene(scene, patch_at(sweeps, 0))), start);
+}
+
+std::string pointer_to(const Path& path) {
+  std::string pointer;
+  for (const auto& name : path) pointer += "/" + name;
+  return pointer;
+}
+
+/// The sweep that leads to what was refused: of its own member, or of one around or within it;
+/// else the first.
+const Sweep& cause(const std::vector<Sweep>& sweeps, const std::string& refused) {
+  for (const auto& sweep : sweeps) {
+    const std::string own = pointer_to(sweep.path) + "/", other = refused + "/";
+    if (own.starts_with(other) || other.starts_with(own)) return sweep;
+  }
+  return sweeps.front();
+}
+
+void within_sweeps(const std::vector<Sweep>& sweeps, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const SceneError& error) {
+    const std::string& at = cause(sweeps, error.pointer).pointer;
+    throw SceneError(at, error.given, error.allowed,
+                     at + " leads to a scene that is refused: " + error.what());
+  } catch (const OverLimit& limit) {
+    const std::string& at = cause(sweeps, limit.pointer).pointer;
+    throw OverLimit(at, at + " leads over a limit: " + limit.what());
+  }
 }
 
 int read_count(const json& count) {
@@ -82,13 +136,14 @@ FramePatches listed(const json& patches) {
     refuse("/frames/" + std::to_string(i), patches[i], "a merge patch, an object");
   }
   return {static_cast<int>(patches.size()),
-          [patches](int i) { return patches[static_cast<std::size_t>(i)]; }, true};
+          [patches](int i) { return patches[static_cast<std::size_t>(i)]; },
+          [](int i, const auto& work) { within("/frames/" + std::to_string(i), work); }};
 }
 
 }  // namespace
 
 FramePatches read_sweep(const json& scene, const json& count, const SweepEnds& ends,
-                        const std::string& at) {
+                        const std::string& at, const std::string& scene_at) {
   const int frames = read_count(count);
   if (ends.empty()) {
     throw SceneError("/to", "", "numbers by dotted path",
@@ -97,17 +152,27 @@ FramePatches read_sweep(const json& scene, const json& count, const SweepEnds& e
   const json start = canonical(read_scene(scene));
   std::vector<Sweep> sweeps;
   for (const auto& [path, to] : ends) {
-    sweeps.push_back(sweep_to(path, to, at + path, start));
+    sweeps.push_back(sweep_to(path, to, at + path, start, scene));
   }
-  // Ranges have no gaps, so a scene out of range shows at the end, with the number that was
-  // given.
-  read_scene(merge(scene, patch_at(sweeps, 1)));
-  return {frames, [sweeps, frames](int i) {
-            return patch_at(sweeps, frames == 1 ? 0 : static_cast<double>(i) / (frames - 1));
+  json kept;
+  within_sweeps(sweeps, [&] {
+    kept = taken_away(scene, start, sweeps);
+    // Ranges have no gaps, so a scene out of range shows at the end, with the number that was
+    // given.
+    read_scene(scene, patch_at(sweeps, 1, kept));
+  });
+  return {frames,
+          [sweeps, kept, frames](int i) {
+            const double t = frames == 1 ? 0 : static_cast<double>(i) / (frames - 1);
+            return patch_at(sweeps, t, kept);
+          },
+          [sweeps, scene_at](int i, const auto& work) {
+            i == 0 ? within(scene_at, work) : within_sweeps(sweeps, work);
           }};
 }
 
-FramePatches read_frame_patches(const json& scene, const json& sequence) {
+FramePatches read_frame_patches(const json& scene, const json& sequence,
+                                const std::string& scene_at) {
   check_members(sequence, "", {"frames", "to"});
   if (!sequence.contains("frames")) miss("/frames", "a list of merge patches, or a number");
   const json& frames = sequence["frames"];
@@ -122,7 +187,7 @@ FramePatches read_frame_patches(const json& scene, const json& sequence) {
     if (!to->is_object()) refuse("/to", *to, "an object of numbers by dotted path");
     for (const auto& [path, end] : to->items()) ends.emplace_back(path, end);
   }
-  return read_sweep(scene, frames, ends, "/to/");
+  return read_sweep(scene, frames, ends, "/to/", scene_at);
 }
 
 }  // namespace cyanometer

@@ -10,21 +10,23 @@
 
 namespace cyanometer {
 
+/// Does some work for a frame, from 0: what is refused of its scene, or over a limit, is said
+/// with pointers into what was asked.
+using WithinFrame = std::function<void(int frame, const std::function<void()>& work)>;
+
 struct FramePatches {
   int count = 0;
   std::function<nlohmann::json(int)> patch;  ///< from 0
-  bool listed = false;                       ///< each in the document, at /frames/0, ...
-
-  /// Where the frame's own scene stands in the sequence; "" where it is not listed.
-  std::string pointer(int frame) const {
-    return listed ? "/frames/" + std::to_string(frame) : "";
-  }
+  WithinFrame within;                        ///< the sequence
 };
 
 /// {"frames": [merge patch, ...]}, or {"frames": 120, "to": {"sun.elevation_deg": -6, ...}}:
-/// numbers go linearly from what they are in the scene.
+/// numbers go linearly from what they are in the scene, and all else stays what it is there.
+/// @param scene_at  pointer to the scene, where it stands beside the sequence; the first frame
+///                  of a sweep is the scene itself
 /// @throws SceneError with pointers into `sequence`
-FramePatches read_frame_patches(const nlohmann::json& scene, const nlohmann::json& sequence);
+FramePatches read_frame_patches(const nlohmann::json& scene, const nlohmann::json& sequence,
+                                const std::string& scene_at);
 
 /// Where numbers go, by dotted path; not checked.
 using SweepEnds = std::vector<std::pair<std::string, nlohmann::json>>;
@@ -33,6 +35,7 @@ using SweepEnds = std::vector<std::pair<std::string, nlohmann::json>>;
 /// @param count  a whole number from 1
 /// @throws SceneError
 FramePatches read_sweep(const nlohmann::json& scene, const nlohmann::json& count,
-                        const SweepEnds& ends, const std::string& at);
+                        const SweepEnds& ends, const std::string& at,
+                        const std::string& scene_at);
 
 }  // namespace cyanometer

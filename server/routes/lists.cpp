@@ -1,4 +1,5 @@
 // GET /v1/methods, /v1/presets, /v1/limits, /v1/schema: what there is.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/engine.h"
@@ -55,12 +56,19 @@ json presets_document() {
 }
 
 json limits_document(const Config& config) {
-  return {{"pixels", config.max_pixels},       {"wavelengths", config.max_wavelengths},
-          {"samples", config.max_samples},     {"device_s", config.max_device_s},
-          {"frames", config.max_frames},       {"directions", most_directions},
-          {"body_bytes", config.body_bytes()}, {"frame_bytes", config.frame_bytes()},
-          {"kernels", config.kernels},         {"queue", config.queue},
-          {"connections", config.threads},     {"deadline_s", config.deadline_s}};
+  return {{"pixels", config.max_pixels},
+          {"wavelengths", config.max_wavelengths},
+          {"samples", config.max_samples},
+          {"device_s", config.max_device_s},
+          {"frames", config.max_frames},
+          {"directions", most_directions},
+          {"body_bytes", config.body_bytes()},
+          {"json_bytes", std::min(most_json_bytes, config.body_bytes())},
+          {"frame_bytes", config.frame_bytes()},
+          {"kernels", config.kernels},
+          {"queue", config.queue},
+          {"connections", config.threads},
+          {"deadline_s", config.deadline_s}};
 }
 
 Route list(const std::string& path, const std::string& summary,

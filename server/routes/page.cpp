@@ -43,13 +43,19 @@ constexpr std::string_view policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
+/// A picture that is opened by itself has its style within.
+constexpr std::string_view policy_of_pictures =
+    "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'";
+
 Answer file(const Request& request, Service&) {
   const EmbeddedFile* found = find(request.path);
   if (found == nullptr) throw HttpProblem(404, "This build has no page.");
+  const std::string type(media_type(found->path));
   Answer answer;
-  answer.headers = {{"Content-Type", std::string(media_type(found->path))},
+  answer.headers = {{"Content-Type", type},
                     {"Cache-Control", "no-cache"},
-                    {"Content-Security-Policy", std::string(policy)},
+                    {"Content-Security-Policy",
+                     std::string(type == "image/svg+xml" ? policy_of_pictures : policy)},
                     {"Cross-Origin-Opener-Policy", "same-origin"},
                     {"Referrer-Policy", "no-referrer"}};
   answer.body = found->bytes;

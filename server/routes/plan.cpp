@@ -18,6 +18,7 @@ Answer plan(const json& document, const Request& request, Service& service) {
   const auto asked = scene_request(document);
   check_frame(asked.scene, service.config);
   const Plan plan = service.plans.get(asked.scene, request.peer, watch).plan;
+  check_memory(asked.scene, plan, service.config);
   const Attention attention(watch);
   return json_answer(plan_document(asked.scene, plan));
 }

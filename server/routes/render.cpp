@@ -51,6 +51,7 @@ PlannedFrame frame_request(const json& document, const Request& request, Service
   const auto asked = scene_request(negotiate_format(document, request));
   check_frame(asked.scene, service.config);
   auto planned = plan_frame(asked, request.peer, service, watch);
+  check_memory(asked.scene, planned.plan, service.config);
   service.admission.remember(request);
   return planned;
 }

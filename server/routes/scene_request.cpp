@@ -1,9 +1,9 @@
 #include "server/routes/scene_request.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/engine.h"
 #include "engine/image/encode.h"
 #include "engine/scene/document.h"
 #include "server/http/accept.h"
@@ -25,6 +25,12 @@ nlohmann::json body_document(const Request& request) {
     problem.allowed = "a JSON document";
     throw problem;
   }
+  if (request.body.size() > most_json_bytes) {
+    HttpProblem problem(413, "The body has " + std::to_string(request.body.size()) +
+                                 " bytes, more than JSON may have.");
+    problem.allowed = "at most " + std::to_string(most_json_bytes) + " bytes of JSON";
+    throw problem;
+  }
   return parse_json(request.body);
 }
 
@@ -32,11 +38,19 @@ nlohmann::json link_document(const Request& request) {
   return document_from_query(request.query);
 }
 
+SceneRequest scene_request(const Scene& scene) { return {scene, canonical(scene).dump()}; }
+
 SceneRequest scene_request(const nlohmann::json& document) {
-  SceneRequest out;
-  out.scene = read_scene(document);
-  out.canonical = canonical(out.scene).dump();
-  return out;
+  return scene_request(read_scene(document));
+}
+
+nlohmann::json with_usual_format(nlohmann::json document, std::string_view format) {
+  if (!document.is_object() || names_format(document)) return document;
+  nlohmann::json& image = document["image"];
+  if (image.is_null()) image = nlohmann::json::object();
+  // An image that is no object is left to be refused with the document.
+  if (image.is_object()) image["format"] = format;
+  return document;
 }
 
 nlohmann::json negotiate_format(nlohmann::json document, const Request& request) {
@@ -44,21 +58,15 @@ nlohmann::json negotiate_format(nlohmann::json document, const Request& request)
   if (accept.empty() || !document.is_object() || names_format(document)) return document;
   std::vector<std::string_view> types;
   for (const auto& each : encodings()) types.push_back(each.media_type);
-  const auto best = negotiated(accept, types);
-  if (!document.contains("image") || document["image"].is_null()) {
-    document["image"] = nlohmann::json::object();
-  }
-  // An image that is no object is left to be refused with the document.
-  if (document["image"].is_object()) document["image"]["format"] = encodings()[best].name;
-  return document;
+  return with_usual_format(std::move(document), encodings()[negotiated(accept, types)].name);
 }
 
-std::size_t frame_bytes(const Scene& scene) {
+std::size_t frame_bytes(const Scene& scene, const Plan& plan) {
   const auto& image = scene.image;
   // How many wavelengths `auto` takes is the plan's to say; a layer has as many channels as the
   // image.
-  const std::size_t wavelengths =
-      std::max<std::size_t>(scene.spectrum.wavelengths_nm.size(), 3);
+  const std::size_t wavelengths = std::max(
+      {scene.spectrum.wavelengths_nm.size(), plan.wavelengths_nm.size(), std::size_t{3}});
   const std::size_t channels = image.channels == Channels::spectral ? wavelengths : 3;
   const auto& layers = image.layers;
   const std::size_t copies =
@@ -104,6 +112,14 @@ void check_scene(const Scene& scene, const Config& config) {
   check_samples(scene, config);
 }
 
+void check_memory(const Scene& scene, const Plan& plan, const Config& config) {
+  const std::size_t bytes = frame_bytes(scene, plan);
+  if (bytes <= config.frame_bytes()) return;
+  throw OverLimit("/image", "the frame needs " + std::to_string(bytes) +
+                                " bytes, more than the " +
+                                std::to_string(config.frame_bytes()) + " of this server");
+}
+
 void check_frame(const Scene& scene, const Config& config) {
   check_scene(scene, config);
   const double pixels = static_cast<double>(scene.image.width) * scene.image.height;
@@ -113,11 +129,7 @@ void check_frame(const Scene& scene, const Config& config) {
                                         " pixels are more than the " +
                                         std::to_string(config.max_pixels) + " of this server");
   }
-  if (frame_bytes(scene) > config.frame_bytes()) {
-    throw OverLimit("/image", "the frame needs " + std::to_string(frame_bytes(scene)) +
-                                  " bytes, more than the " +
-                                  std::to_string(config.frame_bytes()) + " of this server");
-  }
+  check_memory(scene, {}, config);
 }
 
 }  // namespace cyanometer

@@ -7,7 +7,6 @@
 
 #include "engine/scene/document.h"
 #include "server/routes/frame.h"
-#include "server/routes/frame_patches.h"
 #include "server/routes/reading.h"
 
 namespace cyanometer {
@@ -24,11 +23,10 @@ json with_format(json document, const Request& request) {
 
 /// Reads every scene once, so that what is wrong with the last is said before the first is
 /// sent.
-void check(const Sequence& sequence, const Config& config, const Watch& watch,
-           const std::function<std::string(int)>& pointer_of) {
+void check(const Sequence& sequence, const Config& config, const Watch& watch) {
   for (int i = 0; i < sequence.count; ++i) {
     watch.check();
-    within(pointer_of(i), [&] { check_frame(sequence.scene(i).scene, config); });
+    sequence.within(i, [&] { check_frame(sequence.scene(i).scene, config); });
   }
 }
 
@@ -61,17 +59,19 @@ std::vector<Scene> coarser(const Scene& scene) {
   return stages;
 }
 
-Sequence refinement(const json& document) {
-  const Scene aim = scene_request(document).scene;
+/// @param at  pointer to the scene in the request
+Sequence refinement(const json& document, const std::string& at) {
+  Scene aim;
+  within(at, [&] { aim = read_scene(document); });
   std::vector<Scene> stages = coarser(aim);
   stages.push_back(aim);
   Sequence sequence;
   sequence.count = static_cast<int>(stages.size());
   sequence.refines = true;
   sequence.scene = [stages = std::move(stages)](int i) {
-    const Scene& scene = stages.at(static_cast<std::size_t>(i));
-    return SceneRequest{scene, canonical(scene).dump()};
+    return scene_request(stages.at(static_cast<std::size_t>(i)));
   };
+  sequence.within = [at](int, const auto& work) { within(at, work); };
   return sequence;
 }
 
@@ -119,8 +119,10 @@ Link read_link(const Fields& query) {
 
 Sequence patched(const json& scene, const FramePatches& patches, const Config& config) {
   check_count("/frames", patches.count, config);
-  return {patches.count,
-          [scene, patches](int i) { return scene_request(merge(scene, patches.patch(i))); }};
+  return {
+      patches.count,
+      [scene, patches](int i) { return scene_request(read_scene(scene, patches.patch(i))); },
+      patches.within};
 }
 
 }  // namespace
@@ -137,10 +139,11 @@ Sequence sequence_of_link(const Request& request, const Config& config, const Wa
   }
   const json scene = with_format(document_from_query(link.scene), request);
   const Sequence sequence =
-      link.refine ? refinement(scene)
-                  : patched(scene, read_sweep(scene, value_of(*link.frames), link.ends, "/to."),
-                            config);
-  check(sequence, config, watch, [](int) { return ""; });
+      link.refine
+          ? refinement(scene, "")
+          : patched(scene, read_sweep(scene, value_of(*link.frames), link.ends, "/to.", ""),
+                    config);
+  check(sequence, config, watch);
   return sequence;
 }
 
@@ -158,17 +161,15 @@ Sequence sequence_of_body(const Request& request, const Config& config, const Wa
   if (!frames) {
     check_members(document, "", {"scene", "refine"});
     if (document["refine"] != true) refuse("/refine", document["refine"], "true");
-    Sequence sequence;
-    within("/scene", [&] { sequence = refinement(scene); });
-    check(sequence, config, watch, [](int) { return "/scene"; });
+    const Sequence sequence = refinement(scene, "/scene");
+    check(sequence, config, watch);
     return sequence;
   }
   within("/scene", [&] { check_frame(read_scene(scene), config); });
   document.erase("scene");
-  const FramePatches patches = read_frame_patches(scene, document);
-  const Sequence sequence = patched(scene, patches, config);
-  check(sequence, config, watch,
-        [&](int i) { return patches.listed ? patches.pointer(i) : std::string("/scene"); });
+  const Sequence sequence =
+      patched(scene, read_frame_patches(scene, document, "/scene"), config);
+  check(sequence, config, watch);
   return sequence;
 }
 

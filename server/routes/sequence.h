@@ -6,6 +6,7 @@
 
 #include "server/config.h"
 #include "server/http/message.h"
+#include "server/routes/frame_patches.h"
 #include "server/routes/scene_request.h"
 
 namespace cyanometer {
@@ -14,6 +15,7 @@ struct Sequence {
   int count = 0;
   /// From 0. Does not throw for a sequence that was checked.
   std::function<SceneRequest(int)> scene;
+  WithinFrame within;  ///< the request
   /// The last scene is the aim; those before it are coarser, each worth showing only where it
   /// is cheaper.
   bool refines = false;

@@ -38,7 +38,11 @@ class Stream {
   /// Makes the first part, so that what hinders it is answered as everywhere.
   void start(const Watch& watch) {
     if (sequence_.refines) {
-      aim_ = plan_frame(sequence_.scene(sequence_.count - 1), request_.peer, service_, watch);
+      const int last = sequence_.count - 1;
+      sequence_.within(last, [&] {
+        aim_ = plan_frame(sequence_.scene(last), request_.peer, service_, watch);
+        check_memory(aim_->asked.scene, aim_->plan, service_.config);
+      });
     }
     first_ = next(watch);
   }
@@ -96,9 +100,15 @@ class Stream {
   }
 
   Part next(const Watch& watch) {
-    PlannedFrame planned = next_plan(watch);
-    const bool last = next_ == sequence_.count;
-    const auto got = get_frame(planned, request_.peer, service_, watch, last);
+    PlannedFrame planned;
+    Frames::Got got;
+    bool last = false;
+    sequence_.within(next_, [&] {
+      planned = next_plan(watch);
+      check_memory(planned.asked.scene, planned.plan, service_.config);
+      last = next_ == sequence_.count;
+      got = get_frame(planned, request_.peer, service_, watch, last);
+    });
     shown_ = planned.plan;
     Fields fields = planned_fields(planned);
     fields.emplace_back("Content-Length", std::to_string(got.frame->bytes.size()));

@@ -40,7 +40,7 @@ void main() {
     Vec4 ground = hidden && scene.surface == 0 ? Vec4(0.0) : READ(tile, (GROUND * GROUPS + g) * n + i);
     Vec4 transmittance = READ(tile, (TRANSMITTANCE * GROUPS + g) * n + i);
     Vec4 sun = sky ? transmittance * disc_radiance(pixel.direction, camera, limb_exponent(g),
-                                                   pixel_angle())
+                                                   disc_scale(g), scene.pixel_rad)
                    : Vec4(0.0);
     UNROLL for (int k = 0; k < 4; ++k) {
       Vec4 light = push.inscatter[k] * inscatter + push.ground[k] * ground +

@@ -25,6 +25,7 @@ Vec3 by_rows(Vec3 row0, Vec3 row1, Vec3 row2, Vec3 v) {
 
 // Stephen Hill's fit of the ACES reference rendering and sRGB output transforms.
 Vec3 aces(Vec3 rgb) {
+  rgb = min(rgb, Vec3(1e6));  // where it has long been white, and squares are far from a float's end
   Vec3 v = by_rows(Vec3(0.59719, 0.35458, 0.04823), Vec3(0.07600, 0.90834, 0.01566),
                    Vec3(0.02840, 0.13383, 0.83777), rgb);
   Vec3 a = v * (v + 0.0245786) - 0.000090537;

@@ -113,6 +113,24 @@ TEST(Batch, PatchesMayBeListedAndPlansAreThoseOfEachFrameAlone) {
   }
 }
 
+TEST(Batch, PatchesMayLeaveTheirTypesToThePreset) {
+  const auto hazy = [](const json& aerosol) {
+    return json{{"atmosphere", {{"constituents", {{"aerosol", aerosol}}}}}};
+  };
+  const Bench bench(merge(tiny_scene(), hazy({{"optical_depth", 0.2}})),
+                    {{"frames", {hazy({{"visibility_km", 10}})}}});
+  bench.run();
+  EXPECT_EQ(bench.frame(0), rendered(merge(tiny_scene(), hazy({{"visibility_km", 10}}))));
+}
+
+TEST(Batch, ASceneThatIsNoneIsNotTakenForAPatchOfOne) {
+  const Bench bench(tiny_scene(), {{"frames", {json::object()}}});
+  bench.write("scene.json", {1, 2});
+  EXPECT_THAT(bench.run({}, 2), ::testing::HasSubstr("must be an object"));
+  bench.write("scene.json", {{"image", 5}});
+  EXPECT_THAT(bench.run({}, 2), ::testing::HasSubstr(" /image must be"));
+}
+
 TEST(Batch, WhatIsThereIsNotMadeAgainAndWhatIsBrokenOrOfAnotherSceneIs) {
   const Bench bench(tiny_scene(), sunset(4));
   bench.run();

@@ -30,6 +30,21 @@ TEST(Command, EveryCommandHelpsWithAnExample) {
   }
 }
 
+TEST(Command, HelpListsWhatThereIsToChooseFrom) {
+  for (const auto& [name, choice] :
+       std::vector<std::pair<std::string, std::string>>{{"bench", "hillaire"},
+                                                        {"chart", "hillaire"},
+                                                        {"chart", "titan"},
+                                                        {"tables", "titan"},
+                                                        {"composite", "cd/m^2"}}) {
+    Program run({name, "--help"});
+    EXPECT_EQ(run.wait(), 0) << name;
+    EXPECT_THAT(run.out(), ::testing::HasSubstr(choice)) << name;
+  }
+  Program unknown({"bench", "--method", "guessing"});
+  EXPECT_EQ(unknown.wait(), 2);
+}
+
 TEST(Command, AnUnknownOneIsRefused) {
   Program run({"paint"});
   EXPECT_EQ(run.wait(), 2);
@@ -66,6 +81,17 @@ TEST(Command, RenderRefusesASceneByName) {
   EXPECT_EQ(run.wait(), 2);
   EXPECT_THAT(run.err(), ::testing::HasSubstr("/planet/radius_km"));
   EXPECT_TRUE(run.out().empty());
+}
+
+TEST(Command, RenderRefusesWhatIsNoScene) {
+  TemporaryFolder folder;
+  for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
+           {"[1,2]", "must be an object"}, {R"({"image":5})", "/image"}}) {
+    Program run({"render", "-", "-o", folder / "sky.exr"}, text);
+    EXPECT_EQ(run.wait(), 2) << text;
+    EXPECT_THAT(run.err(), ::testing::HasSubstr(said)) << text;
+    EXPECT_FALSE(fs::exists(folder / "sky.exr")) << text;
+  }
 }
 
 TEST(Command, CompareTakesScenesAndPictures) {

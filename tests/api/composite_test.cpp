@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +69,24 @@ TEST(CompositeRoute, AtDistanceZeroAnswersThePictureInItsUnit) {
   for (float red : same.planes[0]) EXPECT_NEAR(red, 0.5, 1e-3);
   const ExrImage scaled = answered(post_picture(link + "&scale=3e2", card(0.5f, 0)));
   for (float red : scaled.planes[0]) EXPECT_NEAR(red, 150, 0.2);
+}
+
+/// A picture that was planned for is known the next time.
+TEST(CompositeRoute, TimeSpentOnPlanningIsToldAsPreparation) {
+  const auto prepare_ms = [](float distance_km) {
+    const auto answer = post_picture(link, card(0.5f, distance_km));
+    EXPECT_TRUE(answer);
+    const std::string timing = answer->get_header_value("Server-Timing");
+    const std::string name = "prepare;dur=";
+    const auto at = timing.find(name);
+    EXPECT_NE(at, std::string::npos) << timing;
+    return at == std::string::npos ? 0 : std::stod(timing.substr(at + name.size()));
+  };
+  prepare_ms(7.5f);  // compiles
+  const double planned = prepare_ms(8.25f);
+  double known = planned;
+  for (int i = 0; i < 3; ++i) known = std::min(known, prepare_ms(8.25f));
+  EXPECT_GT(planned, 2 * known);
 }
 
 TEST(CompositeRoute, TheTagIsOfThePictureToo) {

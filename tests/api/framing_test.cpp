@@ -34,6 +34,16 @@ TEST(Framing, ABodyWithoutLengthIsRefused) {
   EXPECT_EQ(status_of(exchange(post_text("", "{}"))), 411);
 }
 
+TEST(Framing, AMethodThatIsNotTakenNeedsNoLength) {
+  for (const std::string method : {"PUT", "PATCH", "DELETE"}) {
+    const auto answer =
+        exchange(method + " /v1/render HTTP/1.1\r\n" + host + "Connection: close\r\n\r\n");
+    EXPECT_EQ(status_of(answer), 405) << method;
+    EXPECT_NE(answer.find("\r\nAllow: GET, HEAD, POST, OPTIONS\r\n"), std::string::npos)
+        << answer;
+  }
+}
+
 TEST(Framing, ALengthThatIsGivenTwiceIsRefused) {
   EXPECT_EQ(status_of(exchange(
                 post_text("Content-Length: 2\r\nTransfer-Encoding: chunked\r\n", "0\r\n\r\n"))),

@@ -7,6 +7,8 @@
 #include <future>
 #include <latch>
 
+#include "engine/scene/document.h"
+#include "server/queue/plans.h"
 #include "tests/api/client.h"
 
 namespace cyanometer::testing {
@@ -126,6 +128,48 @@ TEST(Queue, AtItsStartAJobIsDoneWhileKernelsAreCompiledAhead) {
   EXPECT_EQ(queue.counts().gave_way, 1u);
 }
 
+Plans::Planned plan_of(Plans& plans, double sun_deg) {
+  nlohmann::json scene = tiny_scene();
+  scene["sun"] = {{"elevation_deg", sun_deg}};
+  return plans.get(read_scene(scene), "client", {});
+}
+
+TEST(Plans, AreMadeOnce) {
+  RenderQueue queue({.warm = false});
+  Plans plans(queue);
+  const auto first = plan_of(plans, 30), again = plan_of(plans, 30);
+  EXPECT_EQ(queue.counts().done, 1u);
+  EXPECT_EQ(again.plan.expected_ms, first.plan.expected_ms);
+  EXPECT_GT(first.ms, 0);
+  EXPECT_EQ(again.ms, 0);
+}
+
+/// Before, at the first start on a device, they reckon with a nominal pace.
+TEST(Plans, AreKeptFromWhenTheDeviceIsReady) {
+  RenderQueue queue({.warm = true});
+  Plans plans(queue);
+  EXPECT_FALSE(plan_of(plans, 30).lasting);
+  ASSERT_FALSE(queue.ready());
+  plan_of(plans, 30);
+  EXPECT_EQ(queue.counts().done, 2u);
+}
+
+TEST(Plans, WaitingIsNoPlanning) {
+  RenderQueue queue({.warm = false});
+  Plans plans(queue);
+  Hold hold(queue);
+  const auto start = Clock::now();
+  auto planned = std::async(std::launch::async, [&] { return plan_of(plans, 30); });
+  wait_for_depth(queue, 1);
+  std::this_thread::sleep_for(300ms);
+  hold.let_go();
+  const auto got = planned.get();
+  const double elapsed =
+      std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  EXPECT_GE(got.queue_ms, 300);
+  EXPECT_LE(got.queue_ms + got.ms, elapsed);
+}
+
 TEST(Queue, AJobOfTheSameLengthWaits) {
   RenderQueue queue({.warm = false});
   Working working(queue, 1000);
@@ -201,6 +245,24 @@ TEST(Queue, FramesAliveAreBounded) {
   EXPECT_EQ(second.wait_for(200ms), std::future_status::timeout);
   first.reset();
   EXPECT_EQ(second.wait_for(10s), std::future_status::ready);
+}
+
+TEST(Queue, WhatNeedsNoMemoryDoesNotWaitForThatOfOthers) {
+  RenderQueue queue({.frame_bytes = 100, .warm = false});
+  const auto job = [](std::size_t bytes) {
+    return Job{.client = "a", .frame_bytes = bytes, .work = [](Engine&, const Watch&) {}};
+  };
+  auto being_sent = std::make_unique<Ticket>(queue.run(job(60)));
+  auto large = std::async(std::launch::async, [&] { queue.run(job(60)); });
+  wait_for_depth(queue, 1);
+  auto small = std::async(std::launch::async, [&] { queue.run(job(10)); });
+  auto plan = std::async(std::launch::async, [&] { queue.run(job(0)); });
+  EXPECT_EQ(plan.wait_for(10s), std::future_status::ready);
+  EXPECT_EQ(small.wait_for(200ms), std::future_status::timeout)
+      << "it came before the large one";
+  being_sent.reset();
+  EXPECT_EQ(large.wait_for(10s), std::future_status::ready);
+  EXPECT_EQ(small.wait_for(10s), std::future_status::ready);
 }
 
 TEST(Queue, AFullOneRefusesAndSaysWhenToComeBack) {

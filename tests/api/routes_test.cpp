@@ -201,6 +201,42 @@ TEST(Render, AFrameThatNeedsTooMuchMemoryIsRefused) {
   expect_problem(post("/v1/render", scene), 422, "/image");
 }
 
+TEST(Render, AFrameWhoseWavelengthsNeedTooMuchMemoryIsRefused) {
+  Config config = free_port();
+  config.frame_memory_mb = 1;
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  const auto status = [&](const char* path, const json& body, const std::string& pointer = "") {
+    const auto answer = client_of(daemon).Post(path, body.dump(), "application/json");
+    if (!pointer.empty()) expect_problem(answer, 422, pointer);
+    return answer->status;
+  };
+  // The image and four layers have room at 4 wavelengths and not at 6; it is the plan that says
+  // how many there are.
+  json scene{{"method", {{"scattering_orders", 1}}},
+             {"image",
+              {{"width", 160},
+               {"height", 80},
+               {"format", "exr"},
+               {"channels", "spectral"},
+               {"layers", {"transmittance", "inscatter", "ground", "sun"}}}}};
+  status("/v1/render", scene, "/image");
+  status("/v1/plan", scene, "/image");
+  status("/v1/stream", {{"scene", scene}, {"refine", true}}, "/scene/image");
+  status("/v1/stream", {{"scene", scene}, {"frames", {json::object()}}}, "/frames/0/image");
+  scene["method"]["max_error"] = 10;
+  EXPECT_EQ(status("/v1/render", scene), 200);
+}
+
+TEST(Render, JsonThatIsTooLongIsSaidToBeSo) {
+  const auto answer =
+      client().Post("/v1/render", std::string(most_json_bytes, ' ') + "{}", "application/json");
+  expect_problem(answer, 413);
+  EXPECT_THAT(json_of(answer).at("allowed"),
+              ::testing::HasSubstr(std::to_string(most_json_bytes)));
+}
+
 // ---- radiance and plan
 
 TEST(Radiance, EachDirectionHasAValueForEachWavelength) {
@@ -405,6 +441,15 @@ TEST(Compare, TheBodyIsReadStrictly) {
   }
 }
 
+TEST(Compare, WhatOnlyWorkFindsIsSaidOfItsScene) {
+  json high = quick_scene();
+  high["planet"]["surface"] = {{"type", "procedural"}, {"relief_km", 100}};
+  const std::string relief = "/planet/surface/relief_km";
+  expect_problem(post("/v1/compare", {{"a", quick_scene()}, {"b", high}}), 400, "/b" + relief);
+  expect_problem(post("/v1/compare", {{"a", high}, {"b", quick_scene()}}), 400, "/a" + relief);
+  expect_problem(post("/v1/compare", {{"a", high}, {"b", high}}), 400, "/b" + relief);
+}
+
 TEST(Compare, AnExrIsJudgedAgainstTheSceneOfTheLink) {
   const std::string exr = exr_of(quick_scene());
   const auto answer = judge(quick_link, exr);
@@ -539,12 +584,26 @@ TEST(Day, HasItsTimesAndMoments) {
   EXPECT_TRUE(night.at("sunrise").is_null());
 }
 
+TEST(Day, LongitudesAreThoseOfTheSunsPlace) {
+  const auto highest = [](double longitude) {
+    return json_of(post("/v1/day", {{"latitude_deg", 10},
+                                    {"longitude_deg", longitude},
+                                    {"date", "2026-06-21"}}))
+        .at("highest");
+  };
+  const json east = highest(190), west = highest(-170);
+  EXPECT_EQ(east.at("time"), west.at("time"));
+  EXPECT_NEAR(east.at("elevation_deg").get<double>(), west.at("elevation_deg").get<double>(),
+              1e-6);
+}
+
 TEST(Day, TheBodyIsReadStrictly) {
   const json sound{{"latitude_deg", 10}, {"longitude_deg", 20}, {"date", "2026-06-21"}};
   const std::vector<std::pair<json, std::string>> cases{
       {{{"latitude_deg", 91}}, "/latitude_deg"},
       {{{"latitude_deg", nullptr}}, "/latitude_deg"},
       {{{"longitude_deg", "20"}}, "/longitude_deg"},
+      {{{"longitude_deg", 361}}, "/longitude_deg"},
       {{{"date", "2026-13-01"}}, "/date"},
       {{{"date", 20260621}}, "/date"},
       {{{"utc_offset_min", 1.5}}, "/utc_offset_min"},
@@ -640,6 +699,7 @@ TEST(Lists, TheLimitsAreThoseOfTheContract) {
   EXPECT_EQ(limits.at("queue"), 64);
   EXPECT_EQ(limits.at("kernels"), 192);
   EXPECT_GT(limits.at("body_bytes"), 0);
+  EXPECT_EQ(limits.at("json_bytes"), most_json_bytes);
   EXPECT_GT(limits.at("frame_bytes"), 0);
 }
 
@@ -661,6 +721,14 @@ TEST(OpenApi, ListsEveryRouteOfTheTableAndNothingElse) {
   for (const auto& route : routes())
     there.insert((route.method == "GET" ? "get" : "post") + route.path);
   EXPECT_EQ(listed, there);
+}
+
+TEST(OpenApi, ABoundIsMeantToHoldAndNotPromised) {
+  const auto document = json_of(client().Get("/openapi.json"));
+  const json& headers =
+      document.at("/paths/~1v1~1render/post/responses/200/headers"_json_pointer);
+  EXPECT_THAT(headers.at("Cyanometer-Error").at("description").get<std::string>(),
+              ::testing::HasSubstr("meant to hold"));
 }
 
 TEST(OpenApi, EveryReferenceLeadsSomewhere) {
@@ -718,6 +786,16 @@ TEST(Page, IsServedFromTheBinaryUnderAStrictPolicy) {
   EXPECT_EQ(page->get_header_value("X-Content-Type-Options"), "nosniff");
   EXPECT_EQ(client().Get("/index.html")->body, page->body);
   EXPECT_EQ(status_of(get_if_changed("/", page->get_header_value("ETag"))), 304);
+}
+
+TEST(Page, APictureOfItHasItsStyleAlsoByItself) {
+  const auto picture = client().Get("/failures.svg");
+  ASSERT_TRUE(picture);
+  ASSERT_EQ(picture->status, 200);
+  EXPECT_TRUE(has(*picture, "<style>"));
+  const auto policy = picture->get_header_value("Content-Security-Policy");
+  EXPECT_THAT(policy, ::testing::HasSubstr("default-src 'none'; style-src 'unsafe-inline'"));
+  EXPECT_THAT(policy, ::testing::Not(::testing::HasSubstr("script-src")));
 }
 
 TEST(Page, NothingOutsideItIsServed) {

@@ -7,6 +7,7 @@
 #include <future>
 
 #include "engine/scene/document.h"
+#include "server/routes/frame_patches.h"
 #include "server/routes/steady_plans.h"
 #include "tests/api/client.h"
 
@@ -120,6 +121,20 @@ TEST(Stream, FramesAreMergedIntoTheScene) {
   }
 }
 
+TEST(Stream, PatchesMayLeaveTheirTypesToThePreset) {
+  const auto hazy = [](const json& aerosol) {
+    return json{{"atmosphere", {{"constituents", {{"aerosol", aerosol}}}}}};
+  };
+  const json patch = hazy({{"visibility_km", 10}});
+  const auto answer = post_stream(
+      {{"scene", merge(tiny_scene(), hazy({{"optical_depth", 0.2}}))}, {"frames", {patch}}});
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->status, 200) << answer->body;
+  EXPECT_EQ(
+      parts_of(answer->body).at(0).body,
+      client().Post("/v1/render", merge(tiny_scene(), patch).dump(), "application/json")->body);
+}
+
 TEST(Stream, ARefinementGetsBetterAndEndsWithTheScene) {
   json scene = small_scene();
   scene["method"] = {{"name", "path"}, {"samples_per_pixel", 64}};
@@ -182,7 +197,7 @@ TEST(Stream, LinksAreReadStrictly) {
            {"frames=3&to.sun.height=1", "/to.sun.height"},
            {"frames=3&to.image.format=1", "/to.image.format"},
            {"frames=3&to.=1", "/to."},
-           {"frames=3&to.sun.elevation_deg=100", "/sun/elevation_deg"},
+           {"frames=3&to.sun.elevation_deg=100", "/to.sun.elevation_deg"},
            {"frames=3&to.sun.elevation_deg=1&planet.radius_km=-1", "/planet/radius_km"}}) {
     const auto answer = get_stream(query);
     ASSERT_TRUE(answer);
@@ -208,6 +223,23 @@ TEST(Stream, BodiesAreReadStrictly) {
            {{{"frames", 0}, {"to", {{"sun.elevation_deg", 1}}}}, 400, "/frames"},
            {{{"frames", 3}, {"to", 1}}, 400, "/to"},
            {{{"frames", 3}, {"to", {{"sun.height", 1}}}}, 400, "/to/sun.height"},
+           {{{"frames", 3}, {"to", {{"sun.elevation_deg", -100}}}},
+            400,
+            "/to/sun.elevation_deg"},
+           {{{"frames", 3}, {"to", {{"camera.pitch_deg", 5}, {"sun.elevation_deg", -100}}}},
+            400,
+            "/to/sun.elevation_deg"},
+           // The sun would be within the air.
+           {{{"scene", {{"sun", {{"distance_km", 6600}}}}},
+             {"frames", 3},
+             {"to", {{"planet.radius_km", 6700}}}},
+            400,
+            "/to/planet.radius_km"},
+           {{{"frames", 3}, {"to", {{"image.width", 1281}}}}, 400, "/to/image.width"},
+           {{{"scene", wide}, {"frames", 3}, {"to", {{"image.width", 16}}}},
+            422,
+            "/scene/image/width"},
+           {{{"frames", 3}, {"to", {{"image.height", 16384}}}}, 422, "/to/image.height"},
            {{{"frames", 3}, {"to", {{"sun.elevation_deg", "1"}}}},
             400,
             "/to/sun.elevation_deg"},
@@ -230,6 +262,66 @@ TEST(Stream, BodiesAreReadStrictly) {
     EXPECT_EQ(answer->status, status) << body << answer->body;
     EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << body;
   }
+}
+
+json planet_with_relief(double km) {
+  return {{"planet", {{"surface", {{"type", "procedural"}, {"relief_km", km}}}}}};
+}
+
+/// Peaks that stand out of the air are found when the frame is planned.
+TEST(Stream, WhatOnlyWorkFindsIsPointedToInTheRequest) {
+  const json high = merge(tiny_scene(), planet_with_relief(100));
+  const json flat = merge(tiny_scene(), planet_with_relief(0));
+  const std::string relief = "/planet/surface/relief_km";
+  for (const auto& [body, pointer] : std::vector<std::pair<json, std::string>>{
+           {{{"scene", high}, {"refine", true}}, "/scene" + relief},
+           {{{"scene", high}, {"frames", 2}, {"to", {{"sun.elevation_deg", 5}}}},
+            "/scene" + relief},
+           {{{"scene", tiny_scene()}, {"frames", {planet_with_relief(100)}}},
+            "/frames/0" + relief}}) {
+    const auto answer = post_stream(body);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 400) << body << answer->body;
+    EXPECT_EQ(json_of(answer).value("pointer", ""), pointer) << body;
+  }
+  const auto link = get_stream(
+      tiny + "&planet.surface.type=procedural&planet.surface.relief_km=100&refine=true");
+  EXPECT_EQ(json_of(link).value("pointer", ""), relief);
+
+  const auto sweep = post_stream(
+      {{"scene", flat}, {"frames", 2}, {"to", {{"planet.surface.relief_km", 100}}}});
+  ASSERT_TRUE(sweep);
+  const auto parts = parts_of(sweep->body);
+  ASSERT_EQ(parts.size(), 2u) << sweep->body;
+  EXPECT_EQ(parts[1].field("Content-Type"), "application/problem+json");
+  EXPECT_EQ(json::parse(parts[1].body).value("pointer", ""), "/to/planet.surface.relief_km");
+}
+
+const json summer_noon{
+    {"sun",
+     {{"place",
+       {{"latitude_deg", 48.5}, {"longitude_deg", 2.5}, {"time", "2024-06-20T12:00:00Z"}}}}}};
+
+TEST(Stream, ASweepOfAnAngleKeepsTheOtherAndTheFootPointOfAPlace) {
+  const auto sweep = read_sweep(summer_noon, 3, {{"sun.elevation_deg", 10}}, "/to/", "");
+  const Scene start = read_scene(summer_noon);
+  EXPECT_EQ(read_scene(summer_noon, sweep.patch(0)), start);
+  Scene end = start;
+  end.sun.elevation_deg = 10;
+  EXPECT_EQ(read_scene(summer_noon, sweep.patch(2)), end);
+  const auto pitch = read_sweep(summer_noon, 3, {{"camera.pitch_deg", 20}}, "/to/", "");
+  EXPECT_EQ(pitch.patch(2), (json{{"camera", {{"pitch_deg", 20}}}})) << "and no more";
+}
+
+TEST(Stream, APlaceIsSweptToo) {
+  const auto sweep = read_sweep(summer_noon, 3, {{"sun.place.latitude_deg", 60.5}}, "/to/", "");
+  json north = summer_noon;
+  for (int i = 0; i < 3; ++i) {
+    north["sun"]["place"]["latitude_deg"] = 48.5 + 6 * i;
+    EXPECT_EQ(canonical(read_scene(summer_noon, sweep.patch(i))), canonical(read_scene(north)))
+        << i;
+  }
+  EXPECT_THROW(read_sweep(summer_noon, 3, {{"sun.place.time", 1}}, "/to/", ""), SceneError);
 }
 
 TEST(Stream, HeadSaysTheTypeAlone) {

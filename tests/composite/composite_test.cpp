@@ -10,6 +10,7 @@
 
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
+#include "engine/display/planes.h"
 #include "engine/engine.h"
 #include "engine/optics/colour.h"
 #include "engine/scene/document.h"
@@ -482,6 +483,37 @@ TEST(Composite, WalksToAnEndAgreeWithMomentTablesInDoubleAlongThePart) {
     const Samples tables = values(device().composite(scene, picture, plan_of("bruneton")));
     EXPECT_LT(measure_error(tables, wanted).error, 0.006) << view.name;
   }
+}
+
+TEST(Composite, TransmittancesOfChannelsAreNoneOfASunThatLacksTheirColour) {
+  const json suns[] = {0,
+                       {{"wavelengths_nm", {500, 545, 590}}, {"values", {0, 1, 0}}},
+                       {{"wavelengths_nm", {360, 830}}, {"values", {1, 1}}}};
+  for (const json& irradiance : suns) {
+    const Scene scene = read_scene({{"sun", {{"irradiance", irradiance}}}});
+    const std::vector<double> nm = colour_wavelengths(24);
+    for (const std::vector<double>& row : transmittance_rows(scene, nm)) {
+      for (double depth : {0.0, 0.3, 3.0}) {
+        double through = 0;  // air that dims as Rayleigh's does
+        for (std::size_t w = 0; w < nm.size(); ++w)
+          through += row[w] * std::exp(-depth * std::pow(550 / nm[w], 4));
+        EXPECT_GE(through, -0.01) << irradiance << ", " << depth;
+        EXPECT_LE(through, 1.0 + 1e-9) << irradiance << ", " << depth;
+        if (depth == 0) {
+          EXPECT_NEAR(through, 1, 1e-9) << irradiance;
+        }
+      }
+    }
+  }
+}
+
+TEST(Composite, ThePlanOfOnePictureIsNoneForAnotherAsFarAway) {
+  json document{{"method", {{"name", "auto"}, {"max_error", 0.01}}}};
+  const Scene scene = scene_with(document);
+  const Plan bright = device().plan(scene, picture_of(1e6f, 20));
+  const Plan black = device().plan(scene, picture_of(0, 20));
+  EXPECT_LT(bright.expected_error, 1e-4);
+  EXPECT_GT(black.expected_error, 1e-4);
 }
 
 }  // namespace

@@ -518,6 +518,21 @@ TEST(Hdr, HoldsWhatItsExponentReaches) {
     EXPECT_NEAR(hdr.rgb(i)[0], expected[i], expected[i] / 256) << i;
 }
 
+TEST(Hdr, KeepsTheLuminanceOfColoursThatItCannotHold) {
+  Picture picture({8, 1});
+  for (std::size_t i = 0; i < 8; ++i) {
+    picture.values[0][i] = -0.3f;
+    picture.values[1][i] = 1.0f;
+    picture.values[2][i] = 0.5f;
+  }
+  const auto rgb = read_hdr(encoded(picture, ImageFormat::hdr)).rgb(3);
+  const auto luminance = [](double r, double g, double b) {
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  EXPECT_NEAR(luminance(rgb[0], rgb[1], rgb[2]), luminance(-0.3, 1, 0.5), 0.005);
+  EXPECT_EQ(rgb[0], 0);
+}
+
 TEST(Hdr, SaysWhatItsNumbersMean) {
   Picture picture = gradient({8, 4});
   picture.frame.white_luminance = 1000;

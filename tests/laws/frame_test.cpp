@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/accuracy/finest.h"
 #include "engine/display/compositor.h"
 #include "engine/engine.h"
 #include "engine/scene/document.h"
@@ -56,6 +57,59 @@ TEST(Frame, WithoutAirIsBlackSkyOverSunlitGround) {
     EXPECT_EQ(found.irradiance->diffuse_down[w], 0);
     EXPECT_NEAR(found.irradiance->diffuse_up[w], 0.4 * 0.5, 1e-4);
   }
+}
+
+TEST(Frame, HalfOfALargeSunOnTheHorizonLightsThePlane) {
+  // Of a disc of radius r on the horizon the upper half gives the plane, over its projected
+  // solid angle pi sin^2 r, the integral of cos z: 2/3 (r - sin r cos r) to good accuracy.
+  for (double diameter : {10.0, 40.0}) {
+    json document = no_air({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                            {"sun",
+                             {{"elevation_deg", 0},
+                              {"angular_diameter_deg", diameter},
+                              {"limb_darkening", false},
+                              {"disc_samples", 256}}}});
+    Radiances found = device().radiance(scene_of(document), {{40, 10}}, true);
+    const double r = glm::radians(diameter / 2);
+    constexpr int steps = 4000;
+    double integral = 0;  // of sin(elevation) over the half disc, rows of equal elevation
+    for (int i = 0; i < steps; ++i) {
+      const double e = r * (i + 0.5) / steps;
+      integral += 2 * std::acos(std::min(std::cos(r) / std::cos(e), 1.0)) * std::cos(e) *
+                  std::sin(e) * r / steps;
+    }
+    const double expected = integral / (std::numbers::pi * std::pow(std::sin(r), 2));
+    for (double direct : found.irradiance->direct)
+      EXPECT_NEAR(direct, expected, 0.02 * expected) << diameter;
+  }
+}
+
+TEST(Frame, ColoursOfRaysAreThoseOfItsPixelsUnderALampToo) {
+  // Green light, none at the outer wavelengths themselves: between them there is some.
+  json document = small({{"spectrum", {{"wavelengths_nm", {440, 550, 680}}, {"colour", "cie"}}},
+                         {"sun", {{"irradiance", {0, 1, 0}}}},
+                         {"image", {{"format", "exr"}, {"show", {"ground"}}}}});
+  const Scene scene = scene_of(document);
+  const Frame frame = device().render(scene);
+  for (int pixel : {5 * 48 + 7, 20 * 48 + 30}) {
+    const std::vector<Direction> towards = pixel_directions(scene, {pixel});
+    const Radiances found = device().radiance(scene, towards, false, device().plan(scene));
+    const Triple rgb = RayColours(scene, found.wavelengths_nm).rgb(found.relative.front());
+    for (int c = 0; c < 3; ++c) {
+      const double shown = sample(frame, std::string(1, "RGB"[c]), pixel);
+      EXPECT_NEAR(rgb[c], shown, 1e-4 * std::abs(shown)) << c;
+    }
+    EXPECT_EQ(found.radiance.front()[0], 0);
+    EXPECT_GT(found.relative.front()[0], 0);
+  }
+}
+
+TEST(Frame, SpectralChannelsOfNearWavelengthsHaveNamesOfTheirOwn) {
+  json document = small({{"spectrum", {{"wavelengths_nm", {1270.001, 1270.004}}}},
+                         {"image", {{"format", "exr"}, {"channels", "spectral"}}}});
+  const Frame frame = device().render(scene_of(document));
+  EXPECT_GT(sample(frame, "1270.001nm", 5 * 48 + 7), 0);
+  EXPECT_GT(sample(frame, "1270.004nm", 5 * 48 + 7), 0);
 }
 
 TEST(Frame, OfOrderZeroIsTheSunAlone) {

@@ -130,23 +130,6 @@ TEST(Phase, RayleighWithoutDepolarisationIsTheClassicalOne) {
   EXPECT_NEAR(p.rayleigh_phase(glm::dvec4(0), 0.6).x, 3 / (16 * pi) * 1.36, 1e-15);
 }
 
-TEST(Sun, TheDiscsMeanRadianceTimesItsProjectedSolidAngleIsTheIrradiance) {
-  for (double exponent : {0.0, 0.3, 0.8}) {
-    P p = earth_sized();
-    p.scene.sun_direction = {0, 0, 1, 0};
-    p.scene.sun_sin_radius = std::sin(0.05);
-    GaussRule rule = gauss_legendre(200);
-    double sum = 0;
-    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-      double sine = p.scene.sun_sin_radius * rule.nodes[i];
-      glm::dvec3 view(sine, 0, std::sqrt(1 - sine * sine));
-      double radiance = p.disc_radiance(view, {0, 0, 6360}, glm::dvec4(exponent), 1e-12).x;
-      sum += rule.weights[i] * p.scene.sun_sin_radius * 2 * pi * sine * radiance;
-    }
-    EXPECT_NEAR(sum, 1, 2e-3) << exponent;
-  }
-}
-
 Problem camera_problem(Projection projection, int width, int height) {
   Problem problem;
   problem.planet_radius_km = 6360;
@@ -162,6 +145,88 @@ Problem camera_problem(Projection projection, int width, int height) {
   problem.width = width;
   problem.height = height;
   return problem;
+}
+
+/// A frame of square pixels a hundredth of a radian wide, and a sun so many of them wide.
+P frame_with_sun(double pixels_wide, double exponent, glm::dvec3 direction = {0, 0, 1}) {
+  Problem problem = camera_problem(Projection::perspective, 24, 24);
+  problem.camera.altitude_km = 30;
+  problem.camera.heading_deg = problem.camera.roll_deg = 0;
+  problem.camera.pitch_deg = 90;
+  problem.camera.fov_deg = 2 * glm::degrees(std::atan(0.12));
+  problem.sun_direction = {direction.x, direction.y, direction.z};
+  problem.sun_angular_radius_rad = std::asin(0.005 * pixels_wide);
+  problem.limb_darkening_exponent = {exponent};
+  return pack<double>(problem);
+}
+
+double disc_at(P& p, glm::dvec3 view) {
+  glm::dvec3 camera(0, 0, p.scene.planet_radius_km + p.scene.camera_altitude_km);
+  return p.disc_radiance(view, camera, p.limb_exponent(0), p.disc_scale(0), p.scene.pixel_rad)
+      .x;
+}
+
+TEST(Sun, TheDrawnDiscsRadianceOverItsProjectedSolidAngleIsTheIrradiance) {
+  for (double exponent : {0.0, 0.3, 0.8}) {
+    for (double pixels_wide : {0.01, 0.3, 1.0, 3.0, 20.0, 150.0}) {
+      P p = frame_with_sun(pixels_wide, exponent);
+      constexpr int steps = 40000;
+      double end = std::min(p.scene.sun_sin_radius + 0.02, 1.0), sum = 0;
+      for (int i = 0; i < steps; ++i) {
+        double sine = end * (i + 0.5) / steps;
+        sum += disc_at(p, {sine, 0, std::sqrt(1 - sine * sine)}) * 2 * pi * sine * end / steps;
+      }
+      EXPECT_NEAR(sum, 1, 2e-4) << exponent << ", " << pixels_wide << " pixels";
+    }
+  }
+}
+
+TEST(Sun, AWideDiscsMeanRadianceIsTheIrradianceOverItsProjectedSolidAngle) {
+  P p = frame_with_sun(150, 0.0);
+  EXPECT_NEAR(disc_at(p, {0, 0, 1}) * pi * 0.75 * 0.75, 1, 1e-4);
+  EXPECT_EQ(disc_at(p, {0.76, 0, std::sqrt(1 - 0.76 * 0.76)}), 0);
+}
+
+TEST(Sun, PixelsAddUpToItsIrradianceWhereverInAPixelItStands) {
+  for (double pixels_wide : {0.01, 0.5, 1.0, 2.0, 5.0}) {
+    double least = 10, most = 0, mean = 0;
+    constexpr int side = 6;
+    for (int place = 0; place < side * side; ++place) {
+      double x = 0.01 * (place % side) / side, y = 0.01 * (place / side) / side;
+      P p = frame_with_sun(pixels_wide, 0.5, glm::normalize(glm::dvec3(x, y, 1)));
+      double sum = 0;
+      for (int pixel = 0; pixel < 24 * 24; ++pixel) {
+        sum += disc_at(p, p.pixel_ray(pixel).direction) * pixel_solid_angle(p, pixel);
+      }
+      least = std::min(least, sum);
+      most = std::max(most, sum);
+      mean += sum / (side * side);
+    }
+    EXPECT_NEAR(mean, 1, 0.01) << pixels_wide;
+    EXPECT_GT(least, 0.8) << pixels_wide;
+    EXPECT_LT(most, 1.25) << pixels_wide;
+  }
+}
+
+TEST(Sun, PointsOfALargeDiscLightAPlaneThatFacesItAsOneDoes) {
+  for (double distance_km : {0.0, 20000.0}) {
+    Problem problem = camera_problem(Projection::perspective, 4, 4);
+    problem.sun_distance_km = distance_km;
+    problem.sun_angular_radius_rad = 0.6;
+    problem.sun_disc_samples = 64;
+    problem.limb_darkening_exponent = {0.4};
+    P p = pack<double>(problem);
+    const glm::dvec3 foot(0, 0, p.scene.planet_radius_km);
+    const double alone = p.sun_ray(foot, glm::dvec3(0)).irradiance;
+    double sum = 0, widest = 0;
+    for (int k = 0; k < p.scene.disc_points; ++k) {
+      P::SunRay ray = p.sun_ray(foot, p.sun_offset(k));
+      sum += p.sun_weight(k, 0).x * ray.irradiance * ray.direction.z;
+      widest = std::max(widest, std::acos(ray.direction.z));
+    }
+    EXPECT_NEAR(sum, alone, 1e-9 * alone);
+    EXPECT_NEAR(widest, 0.6, 0.01);
+  }
 }
 
 TEST(Camera, ThePixelOfAPixelsRayIsThatPixel) {

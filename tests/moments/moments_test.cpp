@@ -514,5 +514,20 @@ TEST(Moments, NothingIsSeenThroughAirThatHidesEverything) {
   }
 }
 
+TEST(Moments, TablesOfNoLightAreNotThoseOfAll) {
+  Scene scene = clear_scene(0.1, 33.3);
+  Scene none = scene;
+  none.method.scattering_orders = 0;
+  const auto seen = [&](const Scene& asked) {
+    return device().radiance(asked, spread_directions(), false).radiance;
+  };
+  device().forget_tables();
+  const Samples expected = seen(scene);
+  device().forget_tables();
+  for (const auto& ray : seen(none))
+    for (double value : ray) EXPECT_EQ(value, 0);
+  EXPECT_EQ(seen(scene), expected);
+}
+
 }  // namespace
 }  // namespace cyanometer

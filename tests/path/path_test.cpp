@@ -339,12 +339,13 @@ TEST(PathTracing, OfALargeSunIsTheMeanOverItsDisc) {
   for (int k = 0; k < 4; ++k) {
     set_walks(scene, 1024, 2 + k);
     glm::dvec3 d = physics.sun_ray(glm::dvec3(0), physics.sun_offset(k)).direction;
+    double share = physics.sun_weight(k, 0).y;
     scene.sun.elevation_deg = glm::degrees(std::asin(d.z));
     scene.sun.azimuth_deg = glm::degrees(std::atan2(d.x, d.y));
     Radiances point = device().radiance(scene, directions, false);
     for (std::size_t i = 0; i < directions.size(); ++i) {
-      mean[i] += point.radiance[i][1] / 4;
-      variance[i] += std::pow((*point.standard_error)[i][1] / 4, 2);
+      mean[i] += point.radiance[i][1] * share;
+      variance[i] += std::pow((*point.standard_error)[i][1] * share, 2);
     }
   }
   Deviations deviations;

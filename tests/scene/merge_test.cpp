@@ -108,6 +108,55 @@ TEST(Merge, ARemovalOutlivesAMergeOfDocuments) {
   EXPECT_FALSE(read_scene(document).atmosphere.constituents.contains("aerosol"));
 }
 
+/// The scene of a document and a patch.
+Scene scene_of_both(const Json& document, const std::string& patch) {
+  return read_scene(document, parse_json(patch));
+}
+Particles aerosol_of(const Scene& scene) {
+  return std::get<Particles>(scene.atmosphere.constituents.at("aerosol").matter);
+}
+Particles aerosol_of(const Json& own, const Json& patch) {
+  return aerosol_of(read_scene(with(aerosol_at, own), with(aerosol_at, patch)));
+}
+
+TEST(Patch, KnowsTheTypeThatOnlyThePresetTells) {
+  const Particles thick = aerosol_of({{"optical_depth", 0.2}}, {{"visibility_km", 10}});
+  EXPECT_EQ(thick.optics, decltype(thick.optics)(Visibility{10, 0.92}));
+
+  const Json law{{"power_law", {{"value", 0.3}, {"at_nm", 500}, {"exponent", -1}}}};
+  const Json table{{"wavelengths_nm", {400, 700}}, {"values", {0.3, 0.2}}};
+  const Particles sampled = aerosol_of({{"optical_depth", law}}, {{"optical_depth", table}});
+  EXPECT_EQ(std::get<ParticleOpticalDepth>(sampled.optics).optical_depth,
+            Spectrum(SampledSpectrum{{400, 700}, {0.3, 0.2}}));
+
+  const Json mie{{"phase", {{"type", "mie"}}}};
+  EXPECT_EQ(aerosol_of({{"phase", {{"g", 0.5}}}}, mie).phase, Phase(MieSpheres{}));
+}
+
+TEST(Patch, NullRestoresTheDefaultAndNotThePresets) {
+  const Json none{{"single_scattering_albedo", nullptr}};
+  const Particles white = aerosol_of({{"optical_depth", 0.3}}, none);
+  EXPECT_EQ(white.optics, decltype(white.optics)(ParticleOpticalDepth{0.3, 1.0}));
+
+  const Json dark{{"preset", "earth_sunset"}, {"sun", nullptr}};
+  Sun sun;
+  sun.azimuth_deg = 10;
+  EXPECT_EQ(scene_of_both(dark, R"({"sun": {"azimuth_deg": 10}})").sun, sun);
+}
+
+TEST(Patch, APresetThatItNamesStandsForTheDocuments) {
+  const Json document = parse_json(R"({"preset": "earth_sunset", "sun": {"azimuth_deg": 7},
+                                       "image": {"width": 33}})");
+  const Json own =
+      parse_json(R"({"preset": "mars", "sun": {"azimuth_deg": 7, "elevation_deg": 5},
+                                  "image": {"width": 33}})");
+  EXPECT_EQ(scene_of_both(document, R"({"preset": "mars", "sun": {"elevation_deg": 5}})"),
+            read_scene(own));
+  EXPECT_THROW(scene_of_both(document, R"({"preset": "nowhere"})"), SceneError);
+  EXPECT_THROW(scene_of_both(parse_json("[1, 2]"), R"({"preset": "mars"})"), SceneError);
+  EXPECT_EQ(scene_of_both(document, "{}"), read_scene(document));
+}
+
 TEST(Merge, WhatIsUnknownIsKeptToBeRefused) {
   EXPECT_EQ(refusal(with(aerosol_at + "/phase/h", 1))->pointer, aerosol_at + "/phase/h");
   EXPECT_EQ(refusal(with("/sun/colour", 1))->pointer, "/sun/colour");

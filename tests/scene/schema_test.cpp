@@ -113,7 +113,8 @@ TEST(Schema, EveryNumberHasARange) {
 
 TEST(Schema, EveryUnitInANameIsAUnitOfTheMember) {
   each_member(scene_schema(), [](const std::string& name, const Json& member) {
-    if (name.ends_with("_km") || name.ends_with("_deg") || name.ends_with("_nm")) {
+    if (name.ends_with("_km") || name.ends_with("_deg") || name.ends_with("_nm") ||
+        name.ends_with("_per_s")) {
       EXPECT_TRUE(member.contains("x-unit")) << name;
     }
   });

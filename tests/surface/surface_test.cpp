@@ -6,6 +6,7 @@
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/error.h"
 #include "engine/accuracy/precision.h"
+#include "engine/attention.h"
 #include "tests/scene/scene_testing.h"
 #include "tests/surface/testing.h"
 
@@ -453,6 +454,24 @@ TEST(SurfaceDocument, SharesTablesWhereOnlyWhatIsSeenOfItDiffers) {
   Scene scene = scene_on(ProceduralSurface{}, 10, 30), turned = scene;
   turned.camera.longitude_deg += 50;
   EXPECT_EQ(atmosphere_key(scene), atmosphere_key(turned));
+}
+
+// A job that reads a map gives way to shorter ones, on the same thread, over the same map.
+TEST(Maps, OneIsReadWhileReadingItGivesWay) {
+  Maps maps;
+  maps.write("grey.exr", grey_map(0.5));
+  int looks = 0;
+  std::shared_ptr<const SurfaceImages> within;
+  Watch watch;
+  watch.gone = [&] {
+    if (++looks == 1) within = surface_images({"grey.exr", "", 8});
+    return false;
+  };
+  {
+    const Attention attention(watch);
+    EXPECT_EQ(surface_images({"grey.exr", "", 8}), within);
+  }
+  EXPECT_GT(looks, 0);
 }
 
 }  // namespace

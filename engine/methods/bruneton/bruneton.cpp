@@ -140,7 +140,9 @@ MethodDescription describe() {
           {{"From the second order on light is parallel and comes from the centre of the "
             "disc.",
             {17},
-            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 1; }},
+            [](const SceneTraits& scene) {
+              return scene.sun_diameter_deg > 1 || scene.near_sun;
+            }},
            {"In haze of an optical depth of 0.1 under a low sun one ray in a hundred is "
             "off by 2.5 % at the defaults; in clear air by less than 0.5 %, 6 % at a sun "
             "of -12 deg.",

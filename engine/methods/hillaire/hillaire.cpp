@@ -138,8 +138,9 @@ const MethodDescription& hillaire_description() {
       .limits =
           {{"Orders two and up scatter evenly into all directions, and light of each is "
             "taken to be the same all around a point: a frame is off by 3 to 8 % by day "
-            "in clear air, 9 to 18 % in haze, at sunset and in twilight, a quarter under "
-            "thick clouds, a half at an orbital sunrise.",
+            "in clear air, 9 to 22 % in haze, smoke and at sunset, a quarter under thick "
+            "clouds, a third to a half from a sun of -9 deg on, at a limb and at an orbital "
+            "sunrise.",
             {3, 7, 9, 12, 16, 21, 22}},
            {"Light that went once sideways and once straight on is missing around the "
             "sun, and taken from half of each forward peak instead.",

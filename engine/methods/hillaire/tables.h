@@ -31,10 +31,11 @@ struct Sizes {
 struct AirTables final : Tables {
   AirTables(vulkan::Device& device, const Sizes& sizes, int media, int groups);
   std::size_t bytes() const override {
-    return kept.size() + log_multiple.size() + log_irradiance.size();
+    return kept.size() + log_multiple.size() + log_irradiance.size() + optical_depth->bytes();
   }
 
-  std::shared_ptr<const OpticalDepthTable> optical_depth;  ///< in the cache by itself
+  /// In the cache by itself too, perhaps: these keep it when it has gone from there.
+  std::shared_ptr<const OpticalDepthTable> optical_depth;
   vulkan::Buffer kept, log_multiple, log_irradiance;
 };
 

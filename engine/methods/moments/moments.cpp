@@ -91,8 +91,8 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
   settings.steps = std::min(settings.steps, int{Physics<float>::MOST_GAUSS_NODES});
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
-  if (wanted > 0 && wanted - 1 <= most_orders) {
-    settings.orders = wanted - 1;
+  if (wanted >= 0 && wanted - 1 <= most_orders) {
+    settings.orders = std::max(wanted - 1, 0);
     settings.tail = false;
   }
   return settings;
@@ -151,7 +151,7 @@ class Moments final : public Method {
   void trace(Tracer& tracer, const UploadedScene& scene, const MethodOptions& options,
              const Tile& tile) override {
     MomentSettings settings = settings_of(scene.problem(), options);
-    bool more = scene.problem().scattering_orders != 0 && settings.orders > 0;
+    bool more = settings.orders > 0;
     std::string key = "moments " + settings.key();
     append(key, std::array{scene.problem().sun_distance_km});
     key += scene.air_key();
@@ -456,7 +456,8 @@ const MethodDescription& moments_description() {
             "at dusk.",
             {2},
             [](const SceneTraits& scene) { return scene.haze > 0.02 && scene.sun_deg < 5; }},
-           {"Late twilight is off by 3 % from a sun of -9 deg on, also where a number of "
+           {"Late twilight is off by 2 % from a sun of -9 deg on, 3 % from -12, also where a "
+            "number of "
             "orders is asked for.",
             {7, 8},
             [](const SceneTraits& scene) { return scene.sun_deg < -6; }},
