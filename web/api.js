@@ -21,6 +21,10 @@ export class Busy extends Error {
 /** Nobody answers. */
 export class Gone extends Error {}
 
+// The key that the last answer gave. Replicas behind one address go by it to where the tables are, so it is
+// sent back; every address here is the page's own.
+let atmosphere;
+
 async function send(address, options = {}) {
   let answer;
   try {
@@ -29,6 +33,7 @@ async function send(address, options = {}) {
     if (error.name === 'AbortError') throw error;
     throw new Gone('The daemon does not answer.');
   }
+  atmosphere = answer.headers.get('Cyanometer-Atmosphere') ?? atmosphere;
   if (answer.ok) return answer;
   if (answer.status === 429 || answer.status === 503) {
     throw new Busy(Number(answer.headers.get('Retry-After')) || 1);
@@ -56,10 +61,10 @@ async function readPieces(read) {
   }
 }
 
-const post = (address, body, signal, headers = {}) => send(address, {
-  method: 'POST', body: JSON.stringify(body), signal,
-  headers: { 'Content-Type': 'application/json', ...headers },
-});
+const postBytes = (address, body, signal, headers) => send(address, { method: 'POST', body, signal, headers: {
+  ...headers, ...(atmosphere && { 'Cyanometer-Atmosphere': atmosphere }) } });
+const post = (address, body, signal, headers = {}) => postBytes(
+  address, JSON.stringify(body), signal, { 'Content-Type': 'application/json', ...headers });
 
 /** What there is: `schema`, `presets`, `methods`, `limits`. */
 export async function list(what) {
@@ -85,8 +90,7 @@ const postJson = async (address, body, signal) => {
   return readBody(() => answer.json());
 };
 const postPicture = async (address, body, signal, type = 'application/json') => {
-  const answer = await send(address, { method: 'POST', body, signal, headers: {
-    'Content-Type': type, Accept: 'image/png' } });
+  const answer = await postBytes(address, body, signal, { 'Content-Type': type, Accept: 'image/png' });
   return readBody(() => answer.blob());
 };
 
@@ -104,8 +108,7 @@ export const compareAsPicture = (a, b, signal) =>
 
 /** A picture of the person's own (EXR bytes) against the scene, in figures or as a picture. */
 export async function judge(scene, exr, signal) {
-  const answer = await send(`/v1/compare?${toQuery(scene)}`, {
-    method: 'POST', body: exr, signal, headers: { 'Content-Type': 'image/x-exr' } });
+  const answer = await postBytes(`/v1/compare?${toQuery(scene)}`, exr, signal, { 'Content-Type': 'image/x-exr' });
   return readBody(() => answer.json());
 }
 export const judgeAsPicture = (scene, exr, signal) =>
@@ -168,12 +171,15 @@ function readFacts(headers) {
   return {
     ...facts,
     method: headers.get('Cyanometer-Method'),
-    options: headers.get('Cyanometer-Options'),
+    options: readOptions(headers.get('Cyanometer-Options') ?? ''),
     error: headers.get('Cyanometer-Error'),
     met: headers.get('Cyanometer-Met'),
     exposure: headers.get('Cyanometer-Exposure'),
   };
 }
+
+const readOptions = (text) => Object.fromEntries(text.split(';').filter(Boolean)
+  .map((option) => option.trim().split('=')).map(([name, value]) => [name, Number(value)]));
 
 /** The words for a failure, for a person. */
 export function inWords(error) {

@@ -17,7 +17,7 @@ export const attributeBlock = (state, view, methods) => workedBlock(state, view,
   action: 'Take apart',
   waiting: 'Computing what the method is measured against, and it again with more of everything…',
   label: 'Of the attribution',
-}, attribute, (found) => draw(found, methods));
+}, (scene) => view.asShown(scene), attribute, (found) => draw(found, methods));
 
 function draw({ method, options, error, error_95: [low, high], shares }, methods) {
   const title = methods.find(({ name }) => name === method)?.title ?? words(method);

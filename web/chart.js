@@ -8,6 +8,7 @@ import { percent } from './figures.js';
 import { settingsInWords } from './methods.js';
 import { format } from './numbers.js';
 import { axes, extent } from './plot.js';
+import { markStale } from './stale.js';
 import { Task } from './task.js';
 
 const HEIGHT = 250;
@@ -49,7 +50,7 @@ export class ChartBlock {
         + 'render by it.'), this.place, this.words);
     state.addEventListener('change', () => {
       this.#mark();
-      if (!this.#task.running) this.place.classList.toggle('stale', this.#points.length > 0 && this.#isStale());
+      this.#age();
     });
   }
 
@@ -59,8 +60,8 @@ export class ChartBlock {
     const orders = method?.scattering_orders;
     return orders === undefined ? scene : { ...scene, method: { scattering_orders: orders } };
   }
-  #isStale() {
-    return JSON.stringify(this.#scene()) !== this.measured;
+  #age() {
+    markStale(this.place, this.#points.length > 0 && JSON.stringify(this.#scene()) !== this.measured);
   }
 
   async #press() {
@@ -70,23 +71,29 @@ export class ChartBlock {
     this.#points = [];
     this.#head = undefined;
     this.#stopped = false;
-    this.place.classList.remove('stale');
     this.place.replaceChildren();
+    this.#age();
     this.button.textContent = 'Stop';
     this.words.textContent = 'Computing what the methods are measured against…';
     try {
-      await this.#task.run((signal) => chart(scene, (line) => this.#take(line), signal),
-                           (error) => { this.words.textContent = inWords(error); });
-      this.#tell();
+      const done = await this.#task.run(
+        (signal) => chart(scene, (line) => this.#take(line), signal).then(() => true),
+        (error) => { this.words.textContent = inWords(error); });
+      if (done) this.#end();  // else it was stopped, and the next may be under way
     } catch (error) {
+      this.#end();
       this.words.textContent = inWords(error);
     }
-    this.button.textContent = 'Measure';
   }
 
   #stop() {
     this.#stopped = true;
     this.#task.stop();
+    this.#end();
+  }
+  #end() {
+    this.button.textContent = 'Measure';
+    this.#tell();
   }
 
   #take(line) {
@@ -135,6 +142,7 @@ export class ChartBlock {
     plot.layer.append(...this.#points.map((point) => this.#dot(point, spot(point), front.includes(point))));
     this.place.replaceChildren(plot.element, this.#legend());
     this.#mark();
+    this.#age();
     if (focused) this.place.querySelector(`[data-point="${CSS.escape(focused)}"]`)?.focus();
   }
 

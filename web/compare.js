@@ -132,7 +132,8 @@ export class Compare {
       const { channels, layers, ...image } = scene.image ?? {};
       return { ...scene, image: { ...image, width, height, format: 'png' } };
     };
-    const [a, b] = [sized(this.state.document()), sized(this.#otherScene())];
+    const a = sized(this.view.asShown(this.state.document()));
+    const b = sized(this.other.asShown(this.#otherScene()));
     this.#say('Measuring…');
     try {
       const onWait = (error) => this.#say(inWords(error));
@@ -140,9 +141,10 @@ export class Compare {
       if (!figures) return;
       this.place.replaceChildren(figuresTable(figures));
       if (this.modes.value !== 'error') return;
-      const picture = await this.#pictured.run((signal) => compareAsPicture(a, b, signal), onWait);
+      const picture = await this.#pictured.run(
+        async (signal) => createImageBitmap(await compareAsPicture(a, b, signal)), onWait);
       if (!picture || this.modes.value !== 'error' || !this.against.value) return;
-      const scale = await this.overlay.showErrors(
+      const scale = this.overlay.showErrors(
         picture, { width, height }, 'The error by pixel: blue too dark, red too bright');
       this.place.append(scale);
     } catch (error) {

@@ -5,6 +5,8 @@ import { offsetMinutes, offsetText, Timeline } from './day_clock.js';
 import { DayStrip } from './day_strip.js';
 import { h, icon } from './dom.js';
 import { number } from './editors.js';
+import { equal } from './paths.js';
+import { wrapDegrees } from './projection.js';
 import { Task } from './task.js';
 
 const PLACES = [
@@ -14,6 +16,10 @@ const PLACES = [
 ];
 const LAPSE_FRAMES = 120;
 const MINUTE_MS = 60e3;
+
+/** East or west of Greenwich, as days are asked for: scenes may go all the way round. */
+const eastOrWest = (longitude) =>
+  (Math.abs(longitude) > 180 ? Number(wrapDegrees(longitude).toFixed(6)) : longitude);
 
 const today = () => new Date().toISOString().slice(0, 10);
 
@@ -28,6 +34,7 @@ export class Day {
   #key = '';  // what the strip shows
   #asked = new Task();
   #lapse = new Task();
+  #playing = false;  // from the press on, before the lapse begins and until its last word
 
   /** `idle()` resolves when the frame on screen does not need the daemon; `fold()` holds this. */
   constructor({ state, view, idle, fold }) {
@@ -73,7 +80,7 @@ export class Day {
   // The scene's, or where somebody would start from: noon of today in the first place.
   #place() {
     const { latitude_deg: latitude, longitude_deg: longitude, time } = this.state.document().sun?.place ?? {};
-    const place = { latitude_deg: latitude ?? PLACES[0][1], longitude_deg: longitude ?? PLACES[0][2] };
+    const place = { latitude_deg: latitude ?? PLACES[0][1], longitude_deg: eastOrWest(longitude ?? PLACES[0][2]) };
     const offset = offsetMinutes(place.longitude_deg);
     const moment = new Date(time ?? `${today()}T12:00:00${offsetText(offset)}`);
     const local = new Date(moment.getTime() + offset * MINUTE_MS).toISOString();
@@ -150,15 +157,22 @@ export class Day {
   }
 
   async #press() {
-    if (this.#lapse.running) return this.#lapse.stop();
+    if (this.#playing) return this.#lapse.stop();
+    this.#playing = true;
     await this.refresh();
-    if (!this.#timeline) return;
+    if (this.#timeline) await this.#playOn();
+    this.#playing = false;
+  }
+
+  // Where the day ends is chosen, unless the person has chosen something else meanwhile.
+  async #playOn() {
     this.strip.stop();
     this.#label(true);
     this.view.hold();
+    const before = this.state.snapshot();
     const last = await this.#run(withoutSun(this.view.movingScene()));
     this.#label(false);
-    if (last !== undefined) this.#choose(last);
+    if (last !== undefined && equal(before, this.state.snapshot())) this.#choose(last);
     this.view.release();
   }
 
@@ -170,7 +184,7 @@ export class Day {
     try {
       await this.#lapse.run((signal) => stream(scene, frames, async (blob, facts, at) => {
         const bitmap = await createImageBitmap(blob);
-        if (signal.aborted) return;
+        if (signal.aborted) return bitmap.close();
         last = shareAt(at);
         this.view.present(bitmap, facts);
         this.#point(last, true);

@@ -3,7 +3,7 @@
 // where its value lives nor what becomes of it.
 
 import { h } from './dom.js';
-import { format, parse, Scale, unitText } from './numbers.js';
+import { format, parse, Scale, unitText, whyNoNumber } from './numbers.js';
 import { spectrumCurve } from './spectrum.js';
 
 const MOST_SLIDERS = 8;  // longer lists are edited as text
@@ -47,7 +47,7 @@ export function number(node, binding) {
     onchange: () => {
       typing.end();
       const value = parse(typed.value);
-      if (value === undefined) binding.complain('This needs a number.');
+      if (value === undefined) binding.complain(whyNoNumber(typed.value));
       else binding.set(value);
     },
     onkeydown: (event) => {

@@ -27,8 +27,7 @@ export const explainBlock = (state, view) => workedBlock(state, view, 'explain-b
   action: 'Explain',
   waiting: 'Leaving out one thing after the other…',
   label: 'Of the explanation',
-}, ({ method, ...scene }, onProgress, signal) =>
-  explain({ ...scene, method: { max_error: ERROR, ...method } }, onProgress, signal), draw);
+}, (scene) => ({ ...scene, method: { max_error: ERROR, ...scene.method } }), explain, draw);
 
 const short = (value) => format(Number(value.toPrecision(2)));
 

@@ -8,7 +8,7 @@ const REFRESH_MS = 250;
 
 /**
  * Shows the facts of each frame in `element`, at most four times a second; `settings(method,
- * options)` are in words.
+ * options)` are in words. Returns what shows them again, for when there are words for more.
  */
 export function bindFacts(element, view, settings) {
   let { facts } = view;  // a frame may have come before
@@ -24,6 +24,7 @@ export function bindFacts(element, view, settings) {
     timer ??= setTimeout(draw, element.childElementCount ? REFRESH_MS : 0);
   });
   draw();
+  return draw;
 }
 
 function lines(facts, framesPerSecond, settings) {
@@ -35,14 +36,11 @@ function lines(facts, framesPerSecond, settings) {
     ['Render', `${format(Number((facts.renderMs ?? 0).toPrecision(3)))} ms`, 'Time on the device'],
     ['Size', `${facts.width} × ${facts.height}`, 'Pixels of this frame'],
     ['Method', words(facts.method ?? '?'), 'How the light of this frame was computed'],
-    ['Options', settings(facts.method, optionsOf(facts)), 'Of the method, but for its defaults'],
-    ['Error', errorText(facts), 'A bound that holds in 95 % of frames'],
-    ['Exposure', `${signed(facts.exposure)} EV`, 'Stops; at 0 a white card in the sun is 1'],
+    ['Options', settings(facts.method, facts.options), 'Of the method, but for its defaults'],
+    ['Error', errorText(facts), 'A bound meant to hold in 95 % of frames'],
+    ['Exposure', `${signed(facts.exposure)} EV`, 'Stops; at 0 a white card facing the sun outside the air is 1'],
   ].filter(([, value]) => value !== '');
 }
-
-const optionsOf = ({ options }) => Object.fromEntries((options ?? '').split(';').filter(Boolean)
-  .map((text) => text.trim().split('=')).map(([name, value]) => [name, Number(value)]));
 
 function errorText({ error, met }) {
   const value = Number(error);

@@ -3,13 +3,13 @@
 //   the scene       state paths link
 //   the daemon      api multipart retry task
 //   the picture     view camera projection; over it wipe and overlay
-//   all around it   page, which puts together
+//   all around it   page, which puts together; shortcuts
 //     Skies         presets
 //     Adjust        panel schema controls editors spectrum numbers methods limits; constituents curves
 //                   together; day day_clock day_strip
 //     Compare       compare figures chart attribute explain worked bars own exr
 //     Probe, Save   probe, save
-//   drawing         dom plot polar segmented; what is drawn is computed by the daemon
+//   drawing         dom plot polar segmented stale; what is drawn is computed by the daemon
 
 import { inWords } from './api.js';
 import { Camera } from './camera.js';

@@ -8,11 +8,23 @@ export function format(value) {
   return String(Number(value.toPrecision(size >= 1000 ? 6 : 4)));
 }
 
+// To some this comma is a decimal point, to others it parts the thousands.
+const AMBIGUOUS = /^[+-]?\d+,\d{3}$/;
+const plain = (text) => text.trim().replace('−', '-');
+
 /** The number a person has typed, undefined where it is none. A comma is a decimal point too. */
 export function parse(text) {
-  const plain = text.trim().replace('−', '-').replace(/^([+-]?\d+),(\d+)$/, '$1.$2');
-  const value = Number(plain);
-  return plain !== '' && Number.isFinite(value) ? value : undefined;
+  const typed = plain(text);
+  if (typed === '' || AMBIGUOUS.test(typed)) return undefined;
+  const value = Number(typed.replace(/^([+-]?\d+),(\d+)$/, '$1.$2'));
+  return Number.isFinite(value) ? value : undefined;
+}
+
+/** What is wrong with a text that is no number, for a person. */
+export function whyNoNumber(text) {
+  const typed = plain(text);
+  if (!AMBIGUOUS.test(typed)) return 'This needs a number.';
+  return `Is this ${typed.replace(',', '')} or ${typed.replace(',', '.')}? Write it without the comma.`;
 }
 
 const UNITS = { deg: '°', um: 'µm', '1/km': 'km⁻¹', 'W m^-2 nm^-1': 'W m⁻² nm⁻¹' };

@@ -13,8 +13,7 @@ export class Overlay {
   }
 
   /** Shows a picture instead of the sky. */
-  async show(blob, label) {
-    const bitmap = await createImageBitmap(blob);
+  show(bitmap, label) {
     this.#draw(bitmap, bitmap.width, bitmap.height, label);
   }
 
@@ -22,8 +21,7 @@ export class Overlay {
    * Shows the pixels of an error picture, `width` x `height` of it, and returns its scale as an
    * element.
    */
-  async showErrors(blob, { width, height }, label) {
-    const bitmap = await createImageBitmap(blob);
+  showErrors(bitmap, { width, height }, label) {
     const bar = h('canvas', { width: bitmap.width - 2 * BAR.side, height: 1 });
     bar.getContext('2d').drawImage(bitmap, -BAR.side, -(height + BAR.row));
     this.#draw(bitmap, width, height, label);

@@ -6,10 +6,12 @@ import { h } from './dom.js';
 import { readExrHead } from './exr.js';
 import { figuresTable } from './figures.js';
 import { segmented } from './segmented.js';
+import { markStale } from './stale.js';
 import { Task } from './task.js';
 
 export class OwnPicture {
   #task = new Task();
+  #reading = new Task();
   #file;  // { name, bytes, width, height, channels }
 
   constructor({ state, panel, overlay, compare, curtain }) {
@@ -18,20 +20,24 @@ export class OwnPicture {
                               onchange: () => this.#take(this.input.files[0]) });
     this.modes = segmented('Shown as', [['figures', 'Figures'], ['error', 'Error picture'],
                                         ['air', 'Air over it']], () => this.#show());
-    this.modes.element.hidden = true;
     this.place = h('div', { className: 'result', 'aria-live': 'polite' });
+    this.back = h('button', { type: 'button', className: 'chip', onclick: () => {
+      this.#putAway();
+      this.input.focus();
+    } }, 'Back to the sky');
     this.element = h('section', { className: 'block', id: 'own-block' },
       h('div', { className: 'row' }, h('h2', {}, 'Your own picture'),
         h('label', { className: 'chip', for: 'own-file' }, 'Choose an EXR')),
       this.input,
       h('p', { className: 'help' }, 'Or drop one anywhere: linear R, G, B of this view are judged against '
         + 'the converged sky; with Z, km along each ray, the air is laid over it.'),
-      this.modes.element, this.place);
+      this.modes.element, this.place, this.back);
+    this.#putAway();
     this.#bindDrop(curtain);
     state.addEventListener('change', () => {
       this.#task.stop();
       if (!this.#file) return;
-      this.place.classList.add('stale');
+      markStale(this.place, true);
       if (this.modes.value !== 'figures') overlay.hide();
     });
     state.addEventListener('settle', () => {
@@ -62,11 +68,10 @@ export class OwnPicture {
     this.input.value = '';
     this.panel.select('compare');
     this.element.scrollIntoView({ block: 'nearest' });
-    this.modes.element.hidden = true;
-    this.#file = undefined;
-    this.overlay.hide();
+    this.#putAway();
     try {
-      const bytes = await file.arrayBuffer();
+      const bytes = await this.#reading.run(() => file.arrayBuffer());
+      if (!bytes) return;
       const head = readExrHead(bytes);
       this.#file = { name: file.name, bytes, ...head };
     } catch (error) {
@@ -74,7 +79,7 @@ export class OwnPicture {
     }
     this.compare.end();
     const hasAir = this.#file.channels.includes('Z');
-    this.modes.element.hidden = false;
+    this.modes.element.hidden = this.back.hidden = false;
     this.modes.element.querySelector('[data-value=air]').hidden = !hasAir;
     this.modes.choose(hasAir ? 'air' : 'figures');
   }
@@ -103,32 +108,32 @@ export class OwnPicture {
         return;
       }
       const ask = mode === 'air' ? composite : judgeAsPicture;
-      const picture = await this.#task.run((signal) => ask(scene, bytes, signal), onWait);
-      if (!picture || this.modes.value !== mode) return;
+      const picture = await this.#task.run(
+        async (signal) => createImageBitmap(await ask(scene, bytes, signal)), onWait);
+      if (!picture) return;
       if (mode === 'air') {
-        await this.overlay.show(picture, 'Your picture with the air of this sky over it');
-        this.#put(title, this.#back());
+        this.overlay.show(picture, 'Your picture with the air of this sky over it');
+        this.#put(title);
       } else {
-        const scale = await this.overlay.showErrors(
+        const scale = this.overlay.showErrors(
           picture, { width, height }, 'The error of your picture: blue too dark, red too bright');
-        this.#put(title, scale, this.#back());
+        this.#put(title, scale);
       }
     } catch (error) {
       this.#say(inWords(error));
     }
   }
 
-  #back() {
-    return h('button', { type: 'button', className: 'chip', onclick: () => {
-      this.overlay.hide();
-      this.#file = undefined;
-      this.modes.element.hidden = true;
-      this.place.replaceChildren();
-    } }, 'Back to the sky');
+  #putAway() {
+    this.#task.stop();
+    this.#file = undefined;
+    this.overlay.hide();
+    this.modes.element.hidden = this.back.hidden = true;
+    this.#put();
   }
   #put(...elements) {
-    this.place.classList.remove('stale');
     this.place.replaceChildren(...elements);
+    markStale(this.place, false);
   }
   #say(text) {
     this.#put(h('p', { className: 'help' }, text));

@@ -19,6 +19,7 @@ import { Probe } from './probe.js';
 import { untilAnswered } from './retry.js';
 import { savePage } from './save.js';
 import { Schema } from './schema.js';
+import { bindShortcuts } from './shortcuts.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -26,6 +27,7 @@ const byId = (id) => document.getElementById(id);
 export class Page {
   #methods = [];  // once the daemon has listed them
   #methodOptions;
+  #showFacts;
   #planning;
   #redraw;
 
@@ -37,7 +39,7 @@ export class Page {
     this.panel = bindPanel();
     this.probe = new Probe({ state, view, panel: this.panel, mark: byId('mark') });
     byId('probe').append(this.probe.element);
-    bindFacts(byId('facts'), view, (...setting) => settingsInWords(this.#methods, ...setting));
+    this.#showFacts = bindFacts(byId('facts'), view, (...setting) => settingsInWords(this.#methods, ...setting));
     this.limits = new Limits({ view, note: byId('near'), open: () => {
       this.panel.select('adjust');
       byId('adjust').querySelector('[data-group=method]')?.setAttribute('open', '');
@@ -50,6 +52,7 @@ export class Page {
     byId('undo').addEventListener('click', () => state.undo());
     byId('redo').addEventListener('click', () => state.redo());
     byId('show-help').addEventListener('click', () => byId('help').showModal());
+    bindShortcuts(byId('shortcuts'));
     document.addEventListener('keydown', (event) => this.#key(event));
   }
 
@@ -61,6 +64,7 @@ export class Page {
     const [root, { presets }, { methods }] =
       await Promise.all([ask('schema'), ask('presets'), ask('methods')]);
     this.#methods = methods;
+    this.#showFacts();
     const schema = new Schema(root, () => {
       const chosen = state.value('spectrum.wavelengths_nm');
       return Array.isArray(chosen) ? chosen.length : undefined;
@@ -164,7 +168,7 @@ export class Page {
       else this.state.undo();
       return;
     }
-    if (typing) return;
+    if (typing || (event.key.length === 1 && !byId('shortcuts').checked)) return;
     const onPicture = event.target === byId('picture') || event.target === document.body;
     if (event.key === '?') byId('help').showModal();
     else if (event.key.toLowerCase() === 'c' && !event.target.closest('select')) this.panel.toggle();

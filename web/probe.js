@@ -5,8 +5,10 @@ import { inWords, radiance } from './api.js';
 import { h } from './dom.js';
 import { percent } from './figures.js';
 import { format } from './numbers.js';
+import { equal } from './paths.js';
 import { linePlot } from './plot.js';
 import { angles, direction, fromPixel, toPixel, wrapDegrees } from './projection.js';
+import { markStale } from './stale.js';
 import { Task } from './task.js';
 import { words } from './editors.js';
 
@@ -26,7 +28,7 @@ export class Probe {
     view.canvas.addEventListener('tap', ({ detail }) => { if (this.#active()) this.#point(detail); });
     state.addEventListener('change', () => {
       this.#follow();
-      if (this.#target && this.#active()) this.place.classList.add('stale');
+      if (this.#target && this.#active()) markStale(this.place, true);
     });
     state.addEventListener('settle', () => this.#ask());
     view.addEventListener('frame', () => this.#follow());
@@ -90,19 +92,23 @@ export class Probe {
 
   async #ask() {
     if (!this.#target || !this.#active()) return;
-    const { image, ...scene } = this.state.document();
+    const asked = this.state.document();
+    const { image, ...scene } = asked;
     try {
       const answer = await this.#task.run((signal) => radiance(scene, [this.#target], signal),
                                           (error) => this.#say(inWords(error)));
       if (!answer) return;
-      this.place.classList.remove('stale');
-      this.place.replaceChildren(...this.#draw(answer));
+      this.#put(this.#draw(answer), !equal(asked, this.state.document()));
     } catch (error) {
       this.#say(inWords(error));
     }
   }
   #say(text) {
-    this.place.replaceChildren(h('p', { className: 'help' }, text));
+    this.#put([h('p', { className: 'help' }, text)], false);
+  }
+  #put(elements, stale) {
+    this.place.replaceChildren(...elements);
+    markStale(this.place, stale);
   }
 
   #draw(answer) {

@@ -1,7 +1,7 @@
 // A spectrum as a curve whose nodes are dragged: wavelengths and values, linear between.
 
 import { h, svg } from './dom.js';
-import { format, parse, Scale, unitText } from './numbers.js';
+import { format, parse, Scale, unitText, whyNoNumber } from './numbers.js';
 import { axes } from './plot.js';
 
 const SHORTEST_NM = 380;
@@ -79,7 +79,7 @@ class SpectrumCurve {
   }
   #type() {
     const value = parse(this.typed.value);
-    if (value === undefined) this.binding.complain('This needs a number.');
+    if (value === undefined) this.binding.complain(whyNoNumber(this.typed.value));
     else this.#move(this.#nodes()[this.#chosen][0], value);
   }
   // Between the chosen one and the next; the last has its place before it.
@@ -126,6 +126,7 @@ class SpectrumCurve {
     const words = `${format(wavelength)} nm: ${format(value)}`;
     return svg('circle', { cx, cy, r: 6, class: `node${index === this.#chosen ? ' chosen' : ''}`, tabindex: 0,
       role: 'slider', 'aria-label': `${this.binding.label}, node ${index + 1}`, 'aria-valuenow': value,
+      'aria-valuemin': Math.min(this.range.low, value), 'aria-valuemax': Math.max(this.range.high, value),
       'aria-valuetext': words, 'data-node': index }, svg('title', {}, words));
   }
   #spotOf([wavelength, value]) {

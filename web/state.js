@@ -126,6 +126,7 @@ export class State extends EventTarget {
     this.#travel(this.#past.pop());
   }
   redo() {
+    this.settleNow();
     if (!this.canRedo()) return;
     this.#past = [...this.#past, this.#settled];
     this.#travel(this.#future.shift());

@@ -100,6 +100,17 @@ export class View extends EventTarget {
     return this.#request({ ...this.fullSize(), moving: false });
   }
 
+  /**
+   * `scene` by the method and options of the frame on screen, where that shows the wanted scene and not only
+   * while it moves: asked anew, the daemon may choose others.
+   */
+  asShown(scene) {
+    if (this.#held || this.#shown.version !== this.#version || !this.facts) return scene;
+    if (this.facts.moving && !this.settled) return scene;
+    const { method: name, options } = this.facts;
+    return { ...scene, method: { ...scene.method, name, ...options } };
+  }
+
   /** Asks for nothing until `release()`: frames come from elsewhere, by `present`. */
   hold() {
     this.#held = true;

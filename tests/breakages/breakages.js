@@ -25,8 +25,9 @@ const BY_SENTENCE = {
     ['reset', 'controls.js', 'hidden: true, onclick: () => state.edit({ [path]: undefined }),', 'hidden: true,'],
   ],
   'what is not a number is refused where it was typed': [
-    ['saying so', 'editors.js', `if (value === undefined) binding.complain('This needs a number.');\n      else binding.set(value);\n    },\n    onkeydown`,
+    ['saying so', 'editors.js', `if (value === undefined) binding.complain(whyNoNumber(typed.value));\n      else binding.set(value);\n    },\n    onkeydown`,
      'if (value !== undefined) binding.set(value);\n    },\n    onkeydown'],
+    ['thousands', 'numbers.js', `typed === '' || AMBIGUOUS.test(typed)`, `typed === ''`],
   ],
   'a logarithmic slider moves by factors': [
     ['logarithmic scales', 'numbers.js', `slider.scale === 'log' && this.high > 0;`, 'false;'],
@@ -70,6 +71,7 @@ const BY_SENTENCE = {
   'a spectrum is edited as a curve of nodes': [
     ['dragging a node', 'spectrum.js', 'if (place.hasPointerCapture(event.pointerId)) this.#dragTo(spot(event));', NOTHING],
     ['keys on a node', 'spectrum.js', 'ArrowUp: () => raise(step), ArrowDown: () => raise(-step),', NOTHING],
+    ['limits of a node', 'spectrum.js', `'aria-valuemin': Math.min(this.range.low, value), `, NOTHING],
     ['adding a node', 'spectrum.js', 'list.splice(this.#chosen, 0, [Math.round((left + right) / 2), tidy((a + b) / 2)]);', NOTHING],
   ],
 
@@ -90,6 +92,11 @@ const BY_SENTENCE = {
     ['the way home', 'camera.js', '0: () => this.#home(),', NOTHING],
     ['the sheet of keys', 'page.js', `if (event.key === '?') byId('help').showModal();\n    else if`, 'if'],
     ['folding by a key', 'page.js', 'this.panel.toggle();', ';'],
+    ['its role', 'index.html', 'role="application" aria-roledescription="sky"', 'role="img"'],
+  ],
+  'keys of a single character can be switched off, and stay off': [
+    ['switching off', 'page.js', ` || (event.key.length === 1 && !byId('shortcuts').checked)`, NOTHING],
+    ['staying off', 'shortcuts.js', 'localStorage.setItem(NAME, value);', NOTHING],
   ],
   'one flies from the ground to space': [
     ['climbing', 'camera.js', `const edit = { 'camera.altitude_km': tidy(next, 4) };`, 'const edit = {};', 'desktop'],
@@ -100,6 +107,7 @@ const BY_SENTENCE = {
   'everything can be reached with the tabulator': [
     ['sliders in their turn', 'editors.js', `type: 'range', min: 0, max: scale.positions,`, `type: 'range', tabIndex: -1, min: 0, max: scale.positions,`],
     ['help in its turn', 'index.html', '<button id="show-help"', '<button id="show-help" tabindex="-1"'],
+    ['the first and the last tab', 'panel.js', 'Home: tabs[0], End: tabs.at(-1) }', '}'],
   ],
   'the sun can be dragged': [
     ['the grip on the sun', 'camera.js', `this.#isOnSun(event) ? 'sun' : 'look';`, `'look';`],
@@ -117,7 +125,16 @@ const BY_SENTENCE = {
   'the day plays as a time-lapse': [
     ['its frames', 'day.js', 'this.view.present(bitmap, facts);', NOTHING],
     ['its clock', 'day.js', 'this.#point(last, true);', NOTHING],
-    ['stopping', 'day.js', 'if (this.#lapse.running) return this.#lapse.stop();', 'if (this.#lapse.running) return;'],
+    ['stopping', 'day.js', 'if (this.#playing) return this.#lapse.stop();', 'if (this.#playing) return;'],
+  ],
+  'what is chosen while the day plays stays chosen': [
+    ['looking again', 'day.js', 'last !== undefined && equal(before, this.state.snapshot())', 'last !== undefined'],
+  ],
+  'a day that is pressed twice plays once': [
+    ['one at a time', 'day.js', 'if (this.#playing) return this.#lapse.stop();', 'if (this.#lapse.running) return this.#lapse.stop();'],
+  ],
+  'a longitude beyond 180 degrees has its day too': [
+    ['east and west', 'day.js', 'eastOrWest(longitude ?? PLACES[0][2])', 'longitude ?? PLACES[0][2]'],
   ],
   'a time-lapse plays in any page, in an <img>': [['the stream', 'v1/stream']],
 
@@ -140,6 +157,8 @@ const BY_SENTENCE = {
     ['the error', 'facts.js', `['Error', `, `['', `],
     ['the exposure', 'facts.js', `['Exposure', `, `['', `],
     ['frames per second', 'facts.js', 'facts.moving || framesPerSecond > 4', 'false'],
+    ['what its error means', 'facts.js', 'A bound meant to hold in 95 % of frames', NOTHING],
+    ['what its exposure means', 'facts.js', 'Stops; at 0 a white card facing the sun outside the air is 1', NOTHING],
   ],
 
   // ---- Compare --------------------------------------------------------------------------------
@@ -166,9 +185,25 @@ const BY_SENTENCE = {
     ['the measurements', 'failures.html'],
   ],
   'what each part is worth is told in bars, and how far the work is': [
-    ['bars', 'worked.js', 'if (found) put(draw(found));', NOTHING],
+    ['bars', 'worked.js', 'put(draw(found), scene);', NOTHING],
     ['their order', 'explain.js', '.sort(([, a], [, b]) => b.error - a.error)', NOTHING],
-    ['progress', 'worked.js', '(share) => { done.value = share; }', '() => {}'],
+    ['progress', 'worked.js', 'done.value = share;', NOTHING],
+  ],
+  'what is measured is by the method of the frame on screen': [
+    ['attributions by it', 'attribute.js', '(scene) => view.asShown(scene)', '(scene) => scene'],
+    ['figures by it', 'compare.js', 'const a = sized(this.view.asShown(this.state.document()));', 'const a = sized(this.state.document());'],
+    ['figures against its', 'compare.js', 'const b = sized(this.other.asShown(this.#otherScene()));', 'const b = sized(this.#otherScene());'],
+  ],
+  'a result of an earlier sky says so': [
+    ['the words', 'stale.js', `else if (!words) place.prepend(h('p', { className: 'stale-words' }, 'Of the sky as it was before.'));`, NOTHING],
+    ['what was worked out', 'worked.js', 'place.replaceChildren(element);\n    mark();', 'place.replaceChildren(element);'],
+    ['what was charted', 'chart.js', 'this.#mark();\n    this.#age();', 'this.#mark();'],
+    ['another change', 'worked.js', `state.addEventListener('change', mark);`, NOTHING],
+  ],
+  'who stopped waiting for a busy daemon and asks again sees the work of the second question': [
+    ['whose work it is', 'worked.js', 'if (!found) return;  // it was stopped, and the next may be under way\n      put(draw(found), scene);', 'if (found) put(draw(found), scene);'],
+    ['progress after a wait', 'worked.js', 'if (!waiting.isConnected) put(waiting);', NOTHING],
+    ['a chart that stops at once', 'chart.js', 'this.#task.stop();\n    this.#end();', 'this.#task.stop();'],
   ],
   'where the error of the chosen method comes from is told in bars': [
     ['the method', 'attribute.js', '[title, settings]', '[title]'],
@@ -188,7 +223,13 @@ const BY_SENTENCE = {
     ['the curtain', 'own.js', 'curtain.hidden = false;', NOTHING],
     ['figures', 'own.js', 'if (figures) this.#put(title, figuresTable(figures));', NOTHING],
     ['its error picture', 'own.js', `const ask = mode === 'air' ? composite : judgeAsPicture;`, 'const ask = () => undefined;'],
-    ['the way back', 'own.js', 'onclick: () => {\n      this.overlay.hide();', 'onclick: () => {'],
+    ['the way back', 'own.js', 'onclick: () => {\n      this.#putAway();', 'onclick: () => {'],
+  ],
+  'a picture of one’s own is put away in any state, and gives way to the next': [
+    ['the way back', 'own.js', 'this.modes.element.hidden = this.back.hidden = false;', 'this.modes.element.hidden = false;'],
+    ['where the keys go on', 'own.js', 'this.input.focus();', NOTHING],
+    ['forgetting it', 'own.js', '#putAway() {\n    this.#task.stop();\n    this.#file = undefined;', '#putAway() {\n    this.#task.stop();'],
+    ['giving way', 'own.js', '#putAway() {\n    this.#task.stop();', '#putAway() {'],
   ],
   'a picture with distances gets the air of the sky': [
     ['the air', 'own.js', `this.modes.choose(hasAir ? 'air' : 'figures');`, `this.modes.choose('figures');`],
@@ -275,12 +316,20 @@ const BY_SENTENCE = {
 
   // ---- Manners --------------------------------------------------------------------------------
 
+  'what is asked names the atmosphere that the last answer was for': [
+    ['naming it', 'api.js', `...(atmosphere && { 'Cyanometer-Atmosphere': atmosphere })`, NOTHING],
+  ],
   'all of the page comes from the daemon': [
     ['keeping to it', 'main.js', `bindAddress(state);`, `bindAddress(state);\nfetch('https://example.org/').catch(() => {});`],
   ],
   'it is accessible in the light': [
     ['contrast', 'style.css', '--quiet: #47525e;', '--quiet: #aab5c1;'],
     ['names of buttons', 'index.html', 'aria-label="Undo" title="Undo (Ctrl+Z)"', NOTHING],
+    ['contrast of what is off', 'style.css', '.card.off .name { color: var(--quiet); }', '.card.off .name { opacity: 0.5; }'],
+    ['contrast of what is old', 'style.css', '.stale { opacity: 0.85;', '.stale { opacity: 0.45;'],
+    ['edges of sliders', 'style.css', 'margin-top: -6px;\n  border: 0;\n  border-radius: 50%;\n  background: #fff;\n  box-shadow: 0 0 0 1.5px var(--quiet);',
+     'margin-top: -6px;\n  border: 0;\n  border-radius: 50%;\n  background: #fff;'],
+    ['edges of switches', 'style.css', 'box-shadow: inset 0 0 0 1.5px var(--quiet);', NOTHING],
   ],
   'it is accessible in the dark': [
     ['contrast', 'style.css', '--quiet: #aab5c1;', '--quiet: #47525e;'],

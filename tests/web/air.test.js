@@ -92,6 +92,7 @@ visit('a spectrum is edited as a curve of nodes', async (person, page) => {
   await albedo.locator('.form-choice').selectOption('Curve');
   const node = albedo.locator('.node').nth(1);
   await node.waitFor();
+  await person.rest();
   await node.scrollIntoViewIfNeeded();
   const box = await node.boundingBox();
   const place = await albedo.locator('.spectrum').boundingBox();
@@ -103,6 +104,9 @@ visit('a spectrum is edited as a curve of nodes', async (person, page) => {
   assert.ok(wavelengths[1] > 552 && wavelengths[1] < 600, String(wavelengths));
   assert.ok(values[1] > 0.3 && values[1] < 0.7, String(values));
   assert.deepEqual([values[0], values[2]], [1, 1]);
+  const limits = await albedo.locator('.node').evaluateAll((nodes) => nodes.map((one) =>
+    ['min', 'now', 'max'].map((name) => Number.parseFloat(one.getAttribute(`aria-value${name}`)))));
+  for (const [low, now, high] of limits) assert.ok(low <= now && now <= high && low < high, String([low, now, high]));
   await albedo.locator('.node').nth(1).focus();
   await page.keyboard.press('ArrowDown');
   assert.ok((await person.scene()).planet.ground_albedo.values[1] < values[1]);
@@ -146,6 +150,13 @@ visit('a place and a time set the sun; the strip shows the day from dawn to dusk
     await person.photograph('day');
   });
 
+visit('a longitude beyond 180 degrees has its day too', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip-marks span').first().waitFor();
+  assert.equal(await page.locator('.day .typed').nth(1).inputValue(), '-150');
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]&sun.place.latitude_deg=0&sun.place.longitude_deg=210' +
+           '&sun.place.time=2026-03-20T12:00:00-10:00' });
+
 visit('a time-lapse plays in any page, in an <img>', async (person, page) => {
   const link = 'preset=earth&image.width=64&image.height=36&image.exposure_ev=0';
   const address = (query) => String(new URL(`/v1/${query}`, page.url()));
@@ -179,3 +190,39 @@ visit('the day plays as a time-lapse', async (person, page) => {
   assert.ok((await page.locator('.strip-now').innerText()).startsWith(time.slice(11, 16)));
   assert.equal(await page.locator('#status').textContent(), '');
 });
+
+visit('what is chosen while the day plays stays chosen', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  const first = await person.look();
+  await page.getByRole('button', { name: 'Play the day' }).click();
+  await person.until(async () => (await person.look()) !== first, 'the day plays');
+  await person.type('sun.elevation_deg', '12');
+  await page.getByRole('button', { name: 'Play the day' }).waitFor();
+  await person.rest();
+  assert.deepEqual((await person.scene()).sun, { elevation_deg: 12 });
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+visit('a day that is pressed twice plays once', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  const lapses = [];
+  page.on('request', (request) => {
+    if (request.url().endsWith('/v1/stream') && request.postDataJSON().frames.length > 100) lapses.push(request);
+  });
+  const { next } = await person.intercept('**/v1/day');
+  await page.getByLabel('Date').evaluate((date) => {
+    date.value = '2026-12-21';
+    date.dispatchEvent(new Event('change'));
+    const play = document.querySelector('.day .with-icon');
+    play.click();
+    play.click();
+  });
+  const day = await next();
+  await person.settle();
+  assert.equal(lapses.length, 0, 'not before its day is known');
+  await day.continue();
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await person.rest();
+  assert.equal(lapses.length, 1);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });

@@ -171,6 +171,94 @@ visit('speed and accuracy are charted while they are measured; a point is taken'
     await person.photograph('chart');
   }, { hash: '#preset=earth&method.scattering_orders=1' });
 
+visit('what is measured is by the method of the frame on screen', async (person, page) => {
+  let method;
+  page.on('response', (response) => {
+    const { 'cyanometer-method': name, 'cyanometer-options': options } = response.headers();
+    if (name) method = { name, ...Object.fromEntries(options.split(';').filter(Boolean)
+      .map((option) => option.split('=')).map(([key, value]) => [key, Number(value)])) };
+  });
+  await person.type('sun.elevation_deg', '20');
+  await person.rest();
+  await person.tab('Compare');
+  const [attribution] = await Promise.all([page.waitForRequest('**/v1/attribute'),
+                                           page.getByRole('button', { name: 'Take apart' }).click()]);
+  assert.deepEqual(attribution.postDataJSON().method, method);
+  await page.locator('#attribute-block').getByRole('button', { name: 'Stop' }).click();
+  const [comparison] = await Promise.all([page.waitForRequest('**/v1/compare'),
+                                          page.getByRole('button', { name: 'Pin this sky' }).click()]);
+  const { a, b } = comparison.postDataJSON();
+  assert.deepEqual([a.method, b.method], [method, method]);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+// What the daemon might answer, by address.
+const ndjson = (...lines) => lines.map((line) => `${JSON.stringify(line)}\n`).join('');
+const FOUND = {
+  explain: ndjson({ progress: 0.5 }, { progress: 1, ingredients: { ozone: { error: 0.1, ciede2000: 2, ms_saved: 1 } } }),
+  chart: ndjson({ width: 64, height: 36, points: 1 }, { method: 'hillaire', options: {}, frame_ms: 1, error: 0.1 }),
+};
+
+const busy = (route, seconds) => route.fulfill({ status: 503, headers: { 'Retry-After': String(seconds) },
+  contentType: 'application/problem+json', body: '{"title":"Busy","status":503}' });
+
+visit('a result of an earlier sky says so', async (person, page) => {
+  await person.tab('Compare');
+  for (const [name, action, part] of [['explain', 'Explain', '.bars'], ['chart', 'Measure', '.plot']]) {
+    const { next } = await person.intercept(`**/v1/${name}`);
+    const block = page.locator(`#${name}-block`);
+    const words = block.locator('.stale-words');
+    await block.getByRole('button', { name: action }).click();
+    const route = await next();
+    await page.locator('#picture').focus();
+    await page.keyboard.press('d');
+    await person.settle();
+    await route.fulfill({ contentType: 'application/x-ndjson', body: FOUND[name] });
+    await block.locator(part).waitFor();
+    assert.equal(await words.innerText(), 'Of the sky as it was before.', name);
+    await page.keyboard.press('Control+z');
+    assert.equal(await words.count(), 0, `${name}: it is the sky again`);
+    await page.keyboard.press('d');
+    assert.equal(await words.count(), 1, name);
+    await person.settle();
+  }
+  await page.locator('#explain-block').scrollIntoViewIfNeeded();
+  await person.photograph('stale');
+}, { hash: FIXED });
+
+visit('who stopped waiting for a busy daemon and asks again sees the work of the second question', async (person, page) => {
+  await person.tab('Compare');
+  const { next } = await person.intercept('**/v1/explain');
+  const block = page.locator('#explain-block');
+  const button = block.getByRole('button');
+  await block.evaluate((element) => {
+    window.shares = [];
+    new MutationObserver((changes) => {
+      for (const { target } of changes) if (target.matches('progress')) window.shares.push(target.position);
+    }).observe(element, { subtree: true, attributes: true });
+  });
+  await button.click();
+  await busy(await next(), 1);
+  await block.getByText(/busy/).waitFor();
+  await button.click();
+  await button.click();
+  const second = await next();
+  await page.waitForTimeout(1500);
+  assert.equal(await button.innerText(), 'Stop', 'the first, which is over, says nothing of the second');
+  await busy(second, 1);
+  await block.getByText(/busy/).waitFor();
+  await (await next()).fulfill({ contentType: 'application/x-ndjson', body: FOUND.explain });
+  await block.locator('.bars').waitFor();
+  assert.ok((await page.evaluate(() => window.shares)).length, 'how far it is is seen again');
+
+  const charts = await person.intercept('**/v1/chart');
+  const measure = page.locator('#chart-block').getByRole('button');
+  await measure.click();
+  await busy(await charts.next(), 60);
+  await page.locator('#chart-block').getByText(/busy/).waitFor();
+  await measure.click();
+  assert.equal(await measure.innerText(), 'Measure');
+}, { hash: FIXED, expected: /503/ });
+
 visit('an EXR that is dropped is judged against the sky', async (person, page) => {
   const scene = { preset: 'earth', spectrum: { wavelengths_nm: [680, 550, 440] }, camera: { fov_deg: 40 } };
   const answer = await fetch(new URL('/v1/render', page.url()), { method: 'POST', body: JSON.stringify({
@@ -209,3 +297,33 @@ visit('what is no EXR is said in words', async (person, page) => {
   await drop(page, 'cat.png', Buffer.from('no picture'));
   await page.waitForFunction(() => /not an EXR/.test(document.getElementById('own-block').textContent));
 });
+
+visit('a picture of one’s own is put away in any state, and gives way to the next', async (person, page) => {
+  const grey = exrFile(24, 16, { R: 0.1, G: 0.1, B: 0.1 });
+  const block = page.locator('#own-block');
+  const back = block.getByRole('button', { name: 'Back to the sky' });
+  await drop(page, 'grey.exr', grey);
+  await block.locator('[data-figure=error]').waitFor();
+  await back.click();
+  assert.equal(await block.locator('.figures').count(), 0);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'own-file');
+  assert.equal(await back.isVisible(), false);
+  const { next, asked } = await person.intercept(/\/v1\/compare/);
+  await page.locator('#picture').focus();
+  await page.keyboard.press('d');
+  await person.rest();
+  assert.equal(asked.length, 0, 'it is not judged any more');
+  await drop(page, 'grey.exr', grey);
+  const refused = await next();
+  await refused.fulfill({ status: 400, contentType: 'application/problem+json', body: '{"detail":"Not this one."}' });
+  await block.getByText('Not this one.').waitFor();
+  assert.ok(await back.isVisible());
+  await back.click();
+  await drop(page, 'grey.exr', grey);
+  const judged = await next();
+  await drop(page, 'cat.png', Buffer.from('no picture'));
+  await block.getByText(/not an EXR/).waitFor();
+  await judged.fulfill({ json: { error: 0.1 } }).catch(() => {});  // nobody waits for it any more
+  await page.waitForTimeout(500);
+  assert.ok(await block.getByText(/not an EXR/).isVisible());
+}, { hash: FIXED, expected: /400/ });

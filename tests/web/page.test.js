@@ -161,6 +161,8 @@ visit('the frame says its speed, method, options, error and exposure', async (pe
     await place.waitFor();
     assert.match(await place.innerText(), text);
   }
+  assert.match(await page.locator('[data-fact=Error]').getAttribute('title'), /meant to hold in 95 %/);
+  assert.match(await page.locator('[data-fact=Exposure]').getAttribute('title'), /facing the sun outside the air/);
   await person.drag({ x: 0.2, y: 0.7 }, { x: 0.6, y: 0.7 }, { x: 0.2, y: 0.7 });
   await page.locator('[data-fact=Frames]').waitFor();
   assert.match(await page.locator('[data-fact=Frames]').innerText(), /\d+\/s/);
@@ -230,6 +232,14 @@ visit('undo and redo', async (person, page) => {
   assert.equal((await person.scene()).sun, undefined);
   await page.keyboard.press('Control+Shift+Z');
   assert.equal((await person.scene()).sun.elevation_deg, 12);
+  await page.keyboard.press('Control+z');
+  await person.settle();
+  await page.locator('#picture').evaluate((picture) => {
+    for (const key of [{ key: 'd' }, { key: 'Z', ctrlKey: true, shiftKey: true }]) {
+      picture.dispatchEvent(new KeyboardEvent('keydown', { ...key, bubbles: true }));
+    }
+  });
+  assert.equal((await person.scene()).sun.elevation_deg, 30.5, 'a hasty redo leaves the edit before it');
 });
 
 visit('JSON, link, curl and Python make the same frame', async (person, page) => {
@@ -315,9 +325,15 @@ visit('a slider dragged for ten seconds leaves no request and no error behind', 
   for (const idle of [/^cyanometer_queue_depth 0$/m, /^cyanometer_device_busy 0$/m]) assert.match(metrics, idle);
 });
 
-visit('what is not a number is refused where it was typed', async (person, page) => {
+visit('what is not a number is refused where it was typed', async (person) => {
+  const problem = person.control('sun.elevation_deg').locator('.problem');
   await person.type('sun.elevation_deg', 'high');
-  assert.match(await person.control('sun.elevation_deg').locator('.problem').innerText(), /number/);
+  assert.match(await problem.innerText(), /number/);
+  await person.type('sun.elevation_deg', '6,360');
+  assert.match(await problem.innerText(), /6360 or 6\.360/);
+  assert.equal((await person.scene()).sun, undefined);
+  await person.type('sun.elevation_deg', '6,36');
+  assert.equal((await person.scene()).sun.elevation_deg, 6.36);
 });
 
 // One colour instead of the pictures; without one, the pictures again. Runs in the page.
@@ -326,12 +342,44 @@ function showInstead(colour = '') {
   for (const canvas of document.querySelectorAll('main > canvas')) canvas.style.visibility = colour && 'hidden';
 }
 
+/** The strongest contrast of a part of the window with its own first pixel. */
+async function contrast(page, clip) {
+  const picture = (await page.screenshot({ clip })).toString('base64');
+  return page.evaluate(async (content) => {
+    const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(content), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    const linear = (byte) => (byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
+    const luminances = Array.from({ length: data.length / 4 }, (_, i) => 0.2126 * linear(data[4 * i]) +
+      0.7152 * linear(data[4 * i + 1]) + 0.0722 * linear(data[4 * i + 2]));
+    return Math.max(...luminances.map((one) =>
+      (Math.max(one, luminances[0]) + 0.05) / (Math.min(one, luminances[0]) + 0.05)));
+  }, picture);
+}
+
+/** The contrast of a slider's thumb, its lower half and the track left out, and of a switch that is off. */
+async function edges(person, page) {
+  const slider = (await person.find('sun.elevation_deg')).locator('input[type=range]');
+  const { x, y, width, height } = await slider.boundingBox();
+  const share = await slider.evaluate(({ value, max }) => value / max);
+  const size = person.size === 'phone' ? 22 : 16;
+  const middle = x + size / 2 + share * (width - size);
+  const thumb = await contrast(page, { x: middle - size / 2 - 3, y: y + height / 2 - size / 2 - 3,
+                                       width: size + 6, height: size / 2 });
+  const off = page.locator('.card.off .switch');
+  await off.scrollIntoViewIfNeeded();
+  const box = await off.boundingBox();
+  return [thumb, await contrast(page, { x: box.x - 3, y: box.y - 3, width: box.width + 6, height: box.height + 6 })];
+}
+
 for (const colorScheme of ['light', 'dark']) {
   visit(`it is accessible in the ${colorScheme}`, async (person, page) => {
     const axe = await readFile(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
     await page.evaluate(axe);
     // With as much to see as there is.
     await page.locator('.card[data-name=air] summary .name').click();
+    await page.getByRole('switch', { name: 'Ozone on' }).click();
     await page.locator('[data-group=day] summary').click();
     await page.locator('.strip-marks span').first().waitFor();
     await person.tab('Compare');
@@ -347,10 +395,15 @@ for (const colorScheme of ['light', 'dark']) {
     for (const tab of ['Skies', 'Adjust', 'Compare', 'Probe', 'Save']) {
       await person.tab(tab);
       await ask(tab, {});
+      await page.evaluate(() => {
+        for (const result of document.querySelectorAll('.result')) result.classList.add('stale');
+      });
       // Contrast over a picture cannot be told: it is over the brightest and the darkest there are.
       for (const sky of ['white', 'black']) {
         await page.evaluate(showInstead, sky);
         await ask(`${tab} over ${sky}`, { runOnly: ['color-contrast'] });
+        if (tab !== 'Adjust') continue;
+        for (const edge of await edges(person, page)) assert.ok(edge >= 3, `${edge} over ${sky}`);
       }
       await page.evaluate(showInstead);
     }
@@ -376,7 +429,7 @@ visit('the wheel, or two fingers, zoom', async (person, page) => {
 });
 
 visit('keys look, climb, move the sun and show their own help', async (person, page) => {
-  await page.locator('#picture').focus();
+  await page.getByRole('application', { name: /The sky/ }).focus();
   for (const key of ['ArrowRight', 'ArrowUp', 'w', 'd', '+']) await page.keyboard.press(key);
   const { camera, sun } = await person.scene();
   assert.ok(camera.heading_deg > 0 && camera.pitch_deg > 10 && camera.altitude_km > 0.002);
@@ -393,6 +446,26 @@ visit('keys look, climb, move the sun and show their own help', async (person, p
   assert.equal(await page.locator('#panel').isVisible(), false);
 });
 
+visit('keys of a single character can be switched off, and stay off', async (person, page) => {
+  await page.locator('#show-help').click();
+  await page.getByRole('switch', { name: /single character/ }).click();
+  await page.keyboard.press('Escape');
+  const press = async () => {
+    await page.locator('#picture').focus();
+    for (const key of ['w', 'd', '+', 'p', 'c', '?']) await page.keyboard.press(key);
+    assert.deepEqual(await person.scene(), { preset: 'earth' });
+    assert.ok(await page.locator('#adjust').isVisible());
+    assert.equal(await page.getByRole('dialog').isVisible(), false);
+  };
+  await press();
+  await page.reload();
+  await page.locator('.fold').first().waitFor();
+  await person.rest();
+  await press();
+  await page.keyboard.press('ArrowRight');
+  assert.ok((await person.scene()).camera.heading_deg > 0, 'arrows are for the picture alone');
+});
+
 visit('everything can be reached with the tabulator', async (person, page) => {
   await page.locator('#picture').focus();
   const reached = new Set();
@@ -402,6 +475,22 @@ visit('everything can be reached with the tabulator', async (person, page) => {
       document.activeElement.textContent.trim()));
   }
   for (const name of ['Help', 'Adjust', 'Elevation', 'Azimuth']) assert.ok(reached.has(name), name);
+  await page.getByRole('tab', { name: 'Adjust' }).focus();
+  for (const [key, name] of [['End', 'Save'], ['Home', 'Skies'], ['ArrowLeft', 'Save'], ['ArrowRight', 'Skies']]) {
+    await page.keyboard.press(key);
+    assert.equal(await page.locator('[role=tab][aria-selected=true]:focus').innerText(), name, key);
+  }
+});
+
+visit('what is asked names the atmosphere that the last answer was for', async (person, page) => {
+  const { headers } = await fetch(new URL('/v1/render', page.url()), { method: 'POST', body: JSON.stringify({
+    preset: 'earth', image: { width: 16, height: 9 } }) });
+  const asked = [];
+  page.on('request', (request) => { if (request.method() === 'POST') asked.push(request); });
+  await person.type('sun.elevation_deg', '12');
+  await person.rest();
+  const told = new Set(asked.map((request) => request.headers()['cyanometer-atmosphere']));
+  assert.deepEqual([...told], [headers.get('Cyanometer-Atmosphere')]);
 });
 
 visit('all of the page comes from the daemon', async (person, page) => {

@@ -237,6 +237,17 @@ export class Person {
     await this.lift();
   }
 
+  /** Holds what is asked of an address: `next()` is the route of the next question, `asked` are those to come. */
+  async intercept(address) {
+    const asked = [];
+    await this.page.route(address, (route) => { asked.push(route); });
+    const next = async () => {
+      await this.until(() => this.page.waitForTimeout(20).then(() => asked.length), `nobody asks ${address}`);
+      return asked.shift();
+    };
+    return { next, asked };
+  }
+
   /** The scene that the address names, as the page's own JSON. */
   async scene() {
     await this.settle();
