@@ -159,9 +159,12 @@ export class Day {
   async #press() {
     if (this.#playing) return this.#lapse.stop();
     this.#playing = true;
-    await this.refresh();
-    if (this.#timeline) await this.#playOn();
-    this.#playing = false;
+    try {
+      await this.refresh();
+      if (this.#timeline) await this.#playOn();
+    } finally {
+      this.#playing = false;
+    }
   }
 
   // Where the day ends is chosen, unless the person has chosen something else meanwhile.
