@@ -356,7 +356,8 @@ struct Engine::Parts {
     }
   }
 
-  /// Calls `visit(batch, tile)` for every tile and batch once it is traced.
+  /// Calls `visit(batch, tile)` for every batch and tile once it is traced: all tiles of a
+  /// batch one after the other, whose tables are held meanwhile.
   template <typename Visit>
   void trace_tiles(Tracer& tracer, const std::string& name, const MethodOptions& options,
                    const std::vector<Batch>& batches, int rays, Visit visit) {
@@ -368,19 +369,22 @@ struct Engine::Parts {
                           vulkan::Memory::host);
     std::optional<vulkan::Buffer> black;
     if (batches.front().black) black.emplace(device, values.size(), vulkan::Memory::host);
-    for (int first = 0; first < rays; first += at_once) {
-      Tile tile{first, std::min(at_once, rays - first), values};
-      for (std::size_t b = 0; b < batches.size(); ++b) {
-        m.trace(tracer, batches[b].scene, options, tile);
-        const Batch& batch = batches[b];
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      const Batch& batch = batches[b];
+      tracer.tables.give_up();
+      for (int first = 0; first < rays; first += at_once) {
+        Tile tile{first, std::min(at_once, rays - first), values};
+        m.trace(tracer, batch.scene, options, tile);
         if (batch.black) m.trace(tracer, *batch.black, options, {first, tile.rays, *black});
         if (batch.scene.ground_km()) {
           surface.light(on_ground, batch.scene, left_by(m, batch.scene.problem()), tile,
                         black ? *black : values);
         }
         visit(b, tile);
+        const double done = static_cast<double>(first + tile.rays) / rays;
+        tracer.watch.progress((static_cast<double>(b) + done) /
+                              static_cast<double>(batches.size()));
       }
-      tracer.watch.progress(static_cast<double>(tile.first_ray + tile.rays) / rays);
     }
     tracer.device_ms += on_ground.device_ms;
   }

@@ -252,7 +252,7 @@ std::array<std::vector<double>, 3> colour_weights(const Scene& scene,
   const Hats hats(wavelengths_nm);
   over_visible_range([&](double l, double width_nm) {
     const double light = luminous_efficacy / white_luminance * width_nm *
-                         evaluate(scene.sun.irradiance, scene.spectrum.wavelengths_nm, l);
+                         sunlight(scene.sun, scene.spectrum.wavelengths_nm, l);
     const Triple matching = colour_matching(l);
     hats.at(l, [&](std::size_t w, double weight) {
       for (std::size_t c = 0; c < 3; ++c) xyz[c][w] += light * weight * matching[c];
@@ -315,6 +315,7 @@ Problem make_problem(const Scene& scene, const std::vector<double>& wavelengths_
   problem.sun_distance_km = scene.sun.distance_km.value_or(0);
   problem.sun_angular_radius_rad = scene.sun.angular_diameter_deg / 2 * degree;
   problem.sun_disc_samples = scene.sun.disc_samples;
+  problem.solar_distance_au = scene.sun.solar_distance_au;
   for (double l : wavelengths_nm)
     problem.limb_darkening_exponent.push_back(
         scene.sun.limb_darkening ? limb_darkening_exponent(l) : 0);
@@ -335,8 +336,7 @@ Output make_output(const Scene& scene, const std::vector<double>& wavelengths_nm
   Output output;
   output.white_luminance = white_luminance;
   for (double l : wavelengths_nm)
-    output.irradiance.push_back(
-        evaluate(scene.sun.irradiance, scene.spectrum.wavelengths_nm, l));
+    output.irradiance.push_back(sunlight(scene.sun, scene.spectrum.wavelengths_nm, l));
   Triple sunlight_xyz;
   if (scene.spectrum.colour == Colour::cie) {
     output.xyz = colour_weights(scene, wavelengths_nm);

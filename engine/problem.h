@@ -47,6 +47,7 @@ struct Problem {
   double sun_distance_km = 0;             ///< from the planet's centre; 0 is parallel light
   double sun_angular_radius_rad = 0;
   int sun_disc_samples = 1;
+  double solar_distance_au = 1;  ///< how much brighter stars are beside the sun
   /// The disc's radiance is proportional to (cosine of the heliocentric angle)^exponent, by
   /// wavelength [Hestroffer and Magnan 1998]; 0 is an even disc.
   std::vector<double> limb_darkening_exponent;

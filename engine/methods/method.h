@@ -41,7 +41,7 @@ struct Tracer {
   vulkan::Device& device;
   vulkan::Commands& commands;
   Pacer& pacer;
-  TableCache& tables;
+  TablesInUse tables;
   const Watch& watch;
   double device_ms = 0;
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace cyanometer {
 
@@ -60,6 +61,42 @@ class TableCache {
   int making_ = 0;  ///< tables may be made from other tables
   Entries entries_;
   std::unordered_map<std::string, Entries::iterator> places_;
+};
+
+/// The tables of one frame, which has them until it gives them up: what the cache is too small
+/// to keep is made once, and not for every tile.
+class TablesInUse {
+ public:
+  TablesInUse(TableCache& cache) : cache_(cache) {}
+
+  /// As the cache's. Tables from which others are made are the cache's alone.
+  template <class T>
+  std::shared_ptr<const T> get(const std::string& key,
+                               const std::function<std::shared_ptr<const T>()>& make) {
+    if (auto held = held_.find(key); held != held_.end())
+      return std::static_pointer_cast<const T>(held->second);
+    const bool outermost = !making_;
+    auto tables = cache_.get<T>(key, [&] {
+      const Making scope(making_);
+      return make();
+    });
+    if (outermost) held_[key] = tables;
+    return tables;
+  }
+
+  void give_up() { held_.clear(); }
+
+ private:
+  struct Making {
+    bool &making, before;
+    explicit Making(bool& m) : making(m), before(std::exchange(m, true)) {}
+    ~Making() { making = before; }
+    Making(const Making&) = delete;
+  };
+
+  TableCache& cache_;
+  bool making_ = false;
+  std::unordered_map<std::string, std::shared_ptr<const Tables>> held_;
 };
 
 }  // namespace cyanometer

@@ -53,9 +53,12 @@ std::vector<double> evaluate(const Spectrum& spectrum,
   return values;
 }
 
-double evaluate(const Irradiance& irradiance, const std::vector<double>& scene_wavelengths_nm,
+double sunlight(const Sun& sun, const std::vector<double>& scene_wavelengths_nm,
                 double wavelength_nm) {
-  return std::visit(AtWavelength{scene_wavelengths_nm, wavelength_nm}, irradiance);
+  const double given =
+      std::visit(AtWavelength{scene_wavelengths_nm, wavelength_nm}, sun.irradiance);
+  if (std::holds_alternative<Spectrum>(sun.irradiance)) return given;
+  return given / (sun.solar_distance_au * sun.solar_distance_au);
 }
 
 }  // namespace cyanometer

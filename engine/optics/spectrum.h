@@ -18,8 +18,9 @@ std::vector<double> evaluate(const Spectrum& spectrum,
                              const std::vector<double>& scene_wavelengths_nm,
                              const std::vector<double>& wavelengths_nm);
 
-/// The sun's spectral irradiance, W m^-2 nm^-1 (or the unit of the scene's own numbers).
-double evaluate(const Irradiance& irradiance, const std::vector<double>& scene_wavelengths_nm,
+/// The sun's spectral irradiance at the planet, W m^-2 nm^-1 (or the unit of the scene's own
+/// numbers, which are those at the planet).
+double sunlight(const Sun& sun, const std::vector<double>& scene_wavelengths_nm,
                 double wavelength_nm);
 
 }  // namespace cyanometer

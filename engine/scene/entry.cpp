@@ -6,8 +6,9 @@ namespace {
 /// The suffix of a name is its unit.
 std::string unit_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> suffixes{
-      {"_per_km", "1/km"}, {"_km", "km"}, {"_deg", "deg"}, {"_nm", "nm"}, {"_um", "um"},
-      {"_pa", "Pa"},       {"_k", "K"},   {"_ms", "ms"},   {"_ev", "EV"}, {"_m_per_s", "m/s"}};
+      {"_per_km", "1/km"}, {"_km", "km"},       {"_deg", "deg"}, {"_nm", "nm"},
+      {"_um", "um"},       {"_pa", "Pa"},       {"_k", "K"},     {"_ms", "ms"},
+      {"_ev", "EV"},       {"_m_per_s", "m/s"}, {"_au", "au"}};
   for (const auto& [suffix, unit] : suffixes)
     if (name.ends_with(suffix)) return unit;
   return "";

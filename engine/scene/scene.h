@@ -210,11 +210,11 @@ struct Atmosphere {
   bool operator==(const Atmosphere&) const = default;
 };
 
-/// The spectrum measured above the Earth's air, W m^-2 nm^-1.
+/// The spectrum measured above the Earth's air, W m^-2 nm^-1 at 1 au.
 struct MeasuredSunlight {
   bool operator==(const MeasuredSunlight&) const = default;
 };
-/// A black body scaled to the real sun's total at 5772 K.
+/// A black body scaled to the real sun's total at 5772 K and 1 au.
 struct Blackbody {
   double blackbody_k = 5772;
   bool operator==(const Blackbody&) const = default;
@@ -225,6 +225,7 @@ struct Sun {
   double elevation_deg = 30;  ///< at the camera's foot point; already that of `sun.place`
   double azimuth_deg = 0;     ///< clockwise from north
   Irradiance irradiance = MeasuredSunlight{};
+  double solar_distance_au = 1;  ///< of the planet, for light that is known at 1 au
   double angular_diameter_deg = 0.533;
   int disc_samples = 1;
   std::optional<double> distance_km;  ///< from the planet's centre; none: parallel light

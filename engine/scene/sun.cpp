@@ -78,6 +78,11 @@ ObjectOf<Sun> sun_members() {
                        return MeasuredSunlight{};
                      })
           .slider(0, 10, 0.1),
+      Member("solar_distance_au", &Sun::solar_distance_au, number(0.01, 1000),
+             "Distance from the sun",
+             "Of the planet: measured sunlight and a black body's fall with its square, and "
+             "stars are so much brighter beside them. The disc has its own diameter.")
+          .log_slider(0.1, 50),
       Member("angular_diameter_deg", &Sun::angular_diameter_deg, number(0, 90), "Diameter",
              "Angle that the sun's disc covers; 0 draws none.")
           .slider(0, 10, 0.01),

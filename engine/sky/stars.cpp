@@ -97,6 +97,7 @@ StarPixels star_pixels(const Problem& problem, Physics<double>& camera, StarLigh
   for (const auto& [pixel, star] : seen) {
     if (result.pixels.empty() || result.pixels.back() != pixel) result.pixels.push_back(pixel);
   }
+  const auto beside_sun = static_cast<float>(std::pow(problem.solar_distance_au, 2));
   std::size_t groups = static_cast<std::size_t>(camera.GROUPS);
   result.radiance.resize(result.pixels.size() * groups, glm::vec4(0));
   for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
@@ -109,7 +110,8 @@ StarPixels star_pixels(const Problem& problem, Physics<double>& camera, StarLigh
   }
   for (std::size_t at = 0; at < result.pixels.size(); ++at) {
     float solid_angle = static_cast<float>(pixel_solid_angle(camera, result.pixels[at]));
-    for (std::size_t g = 0; g < groups; ++g) result.radiance[at * groups + g] /= solid_angle;
+    for (std::size_t g = 0; g < groups; ++g)
+      result.radiance[at * groups + g] *= beside_sun / solid_angle;
   }
   return result;
 }

@@ -7,7 +7,7 @@
 
 namespace cyanometer {
 
-/// Two digits that count, as a share of a hundred where that reads better.
+/// As a share of a hundred, with two digits that count.
 std::string figure(double value);
 /// As short as it goes.
 std::string number(double value);

@@ -46,10 +46,11 @@ void write_curves(std::ostream& table, const StabilityReport& report) {
 }  // namespace
 
 std::string figure(double value) {
+  if (!(value > 0)) return "0";
+  if (value < 1e-6) return "< 0.0001 %";
   char text[32];
-  const char* format = value >= 1 ? "%.0f %%" : value >= 1e-3 ? "%.2g %%" : "%.0e";
-  std::snprintf(text, sizeof text, format, value >= 1e-3 ? 100 * value : value);
-  return value > 0 ? text : "0";
+  std::snprintf(text, sizeof text, value >= 1 ? "%.0f %%" : "%.2g %%", 100 * value);
+  return text;
 }
 
 std::string number(double value) {
@@ -109,6 +110,17 @@ StabilityCell cell_of(const StabilityReport& report, int row, const std::string&
 
 std::string stability_table(const StabilityReport& report) {
   std::ostringstream table;
+  table << "Measured by `cyanometer stability`, version " << report.version << ", on "
+        << report.device << R"(.
+
+A cell is the largest value of the row's quantity, which stands in the second table with what it is
+swept over. It is **bold** where it is over the row's bound by more than the noise of its reference,
+and then says at which value of the sweep it is largest; the method's limits, in `/v1/methods`, say so
+too. For `auto` the bound is the error that it states where that is larger. `leaves out` is said of a
+row about orders of scattering that the method does not compute, `reference` of the method that the
+others are measured against; an error that is measured is one of the orders that the method computes.
+
+)";
   head(table, "| | row | bound |");
   for (const StabilityRow& row : stability_rows()) {
     table << "| " << row.number << " | " << row.name << " | "

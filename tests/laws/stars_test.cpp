@@ -116,12 +116,14 @@ TEST(Stars, OfAFrameTurnWithTheTimeAndComeBack) {
   EXPECT_EQ(pixels("2024-06-20T23:56:04.0905Z"), pixels("2024-06-20T00:00:00Z"));
 }
 
-/// Whatever pixels they fall on, and at any wavelengths, however many were asked for before.
+/// Whatever pixels they fall on, and at any wavelengths, however many were asked for before;
+/// as a share of the sun's light, which is a ninth at three times the distance.
 TEST(Stars, OfAWholeSphereSendWhatTheCatalogueSends) {
   Scene scene = seen_from(48, 2, "2024-06-20T00:00:00Z");
   scene.camera.projection = Projection::equirectangular;
   scene.image.width = 256;
   scene.image.height = 128;
+  scene.sun.solar_distance_au = 3;
   StarLight light;
   for (double nm = 360; nm < 440; ++nm) light.at(nm);
   std::vector<double> wavelengths = {400, 440, 500, 550, 680};
@@ -135,7 +137,8 @@ TEST(Stars, OfAWholeSphereSendWhatTheCatalogueSends) {
       sum += lit.radiance[2 * k + w / 4][static_cast<int>(w % 4)] *
              pixel_solid_angle(camera, lit.pixels[k]);
     }
-    for (const Star& star : star_catalogue()) expected += star_irradiance(star, wavelengths[w]);
+    for (const Star& star : star_catalogue())
+      expected += 9 * star_irradiance(star, wavelengths[w]);
     EXPECT_NEAR(sum / expected, 1, 1e-5) << wavelengths[w];
   }
 }

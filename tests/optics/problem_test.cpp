@@ -224,6 +224,18 @@ TEST(Output, AWarmerWhitePointCoolsThePicture) {
   EXPECT_EQ(make_output(scene, {550}).white_balance, (Matrix{1, 0, 0, 0, 1, 0, 0, 0, 1}));
 }
 
+TEST(Output, SunlightThatIsKnownAtOneAuFallsWithTheSquareOfTheDistance) {
+  const auto light = [](const Irradiance& irradiance, double au) {
+    Scene scene;
+    scene.sun.irradiance = irradiance;
+    scene.sun.solar_distance_au = au;
+    return make_output(scene, {550}).irradiance.front();
+  };
+  for (const Irradiance& known : {Irradiance(MeasuredSunlight{}), Irradiance(Blackbody{4000})})
+    EXPECT_NEAR(light(known, 10), light(known, 1) / 100, 1e-12);
+  EXPECT_EQ(light(Spectrum(3.0), 10), 3);
+}
+
 TEST(Output, NoLightIsNoWhite) {
   Scene scene;
   scene.sun.irradiance = Spectrum(0.0);
