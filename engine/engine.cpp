@@ -922,6 +922,4 @@ std::string atmosphere_key(const Scene& scene) {
   return fingerprint(air.dump());
 }
 
-std::string version() { return CYANOMETER_VERSION; }
-
 }  // namespace cyanometer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cyanometer {
 namespace {
@@ -18,10 +19,12 @@ double sun_step_deg(double elevation_deg) {
   return elevation_deg > 5 ? 1 : 0.5;
 }
 
-/// The same shape with about as many pixels.
+/// The same shape with as many pixels or some more.
 void round_size(Image& image) {
-  double pixels = static_cast<double>(image.width) * image.height;
-  double scale = std::sqrt(rounded_by_ratio(pixels, 2) / pixels);
+  constexpr double steps_of_doubling = 4;
+  const double pixels = static_cast<double>(image.width) * image.height;
+  const double step = std::ceil(steps_of_doubling * std::log2(pixels) - 1e-9);
+  const double scale = std::max(std::sqrt(std::exp2(step / steps_of_doubling) / pixels), 1.0);
   bool fixed_shape = image.width == 2 * image.height || image.height == 6 * image.width;
   int width = std::max(1, static_cast<int>(std::lround(image.width * scale)));
   int height = std::max(1, static_cast<int>(std::lround(image.height * scale)));
@@ -33,6 +36,17 @@ void round_size(Image& image) {
   image.height = height;
 }
 
+/// From outside the air, with little of the planet in the frame or nothing: turned a little,
+/// the camera sees another share of it.
+bool looks_past_planet(const Scene& scene) {
+  const Camera& camera = scene.camera;
+  const double top_km = scene.planet.radius_km + scene.atmosphere.thickness_km,
+               distance_km = scene.planet.radius_km + camera.altitude_km;
+  if (distance_km <= top_km) return false;
+  const double limb_deg = std::asin(top_km / distance_km) * 180 / std::numbers::pi;
+  return camera.pitch_deg + 90 > limb_deg + camera.fov_deg / 4;
+}
+
 }  // namespace
 
 Scene nearby(const Scene& scene) {
@@ -41,8 +55,10 @@ Scene nearby(const Scene& scene) {
   near.sun.elevation_deg = std::clamp(rounded(elevation, sun_step_deg(elevation)), -90.0, 90.0);
   Camera& camera = near.camera;
   double step = std::min(camera.fov_deg / 8, 5.0);
-  camera.pitch_deg = std::clamp(rounded(camera.pitch_deg, step), -90.0, 90.0);
-  camera.roll_deg = rounded(camera.roll_deg, 15);
+  if (!looks_past_planet(scene)) {
+    camera.pitch_deg = std::clamp(rounded(camera.pitch_deg, step), -90.0, 90.0);
+    camera.roll_deg = rounded(camera.roll_deg, 15);
+  }
   // Only the angle between heading and sun matters.
   near.sun.azimuth_deg = rounded(
       std::remainder(scene.sun.azimuth_deg - camera.heading_deg, 360), std::max(step, 1.0));

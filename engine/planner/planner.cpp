@@ -35,9 +35,9 @@ constexpr double common_error_of_parts = 0.05;
 /// over a world of seas 4 to 15 %, most where coasts and the sky in the sea are looked at.
 constexpr double common_error_of_ground = 0.12, common_error_of_heights = 0.15;
 
-/// Walks of a picture that take longer, ms, are none that `auto` would take: a client's picture
-/// may be so dark that every other method misses what is asked.
-constexpr double longest_walks_of_parts = 60000;
+/// Walks that take longer, ms, are none that `auto` would take for a picture or over a ground
+/// that differs from place to place, where every other method may miss what is asked.
+constexpr double longest_walks = 60000;
 
 /// What a frame aims at where nothing else is asked.
 constexpr double usual_error = 0.02;
@@ -161,35 +161,51 @@ class WalkJudge final : public Judge {
 
 class Planner {
  public:
-  Planner(const PlanInputs& inputs, const Wavelengths& wavelengths)
+  explicit Planner(const PlanInputs& inputs)
       : in_(inputs),
-        wavelengths_(wavelengths),
         few_(few_wavelengths(in_.scene)),
         problem_(make_problem(in_.scene, few_)),
         judge_(make_judge()) {}
 
-  Choice as_asked() const {
+  Choice as_asked(const Wavelengths& wavelengths) const {
     const MethodChoice& asked = in_.scene.method;
-    return judged(choice(method(asked.name), asked.options));
+    return judged(choice(method(asked.name), asked.options, wavelengths));
   }
 
   /// The cheapest within the error and the time; otherwise the best that there is time for.
-  Choice cheapest() const {
+  Choice cheapest(const Wavelengths& wavelengths) const {
     const MethodChoice& asked = in_.scene.method;
-    Choice best;
-    for (Choice& each : candidates()) {
-      bool random = each.method->description().random;
-      if (in_.parts && random && best.method && each.ms > longest_walks_of_parts) break;
-      bool in_time = !asked.max_ms || each.ms <= *asked.max_ms;
-      if (best.method && !in_time) break;
+    const bool walks_have_an_end = in_.parts || problem_.ground;
+    std::optional<Choice> best;
+    bool but_for_ground = false;  // one meets what is asked, but for what none makes less
+    for (const Choice& each : candidates(wavelengths)) {
+      const bool random = each.method->description().random;
+      if (best && asked.max_ms && each.ms > *asked.max_ms) break;
+      if (best && walks_have_an_end && random && each.ms > longest_walks) break;
+      if (but_for_ground && !random) continue;
       Choice measured = judged_or_left(each);
-      double error = std::hypot(measured.error, wavelengths_.error);
-      if (asked.max_error && error <= *asked.max_error) return measured;
-      // A random method that misses what was asked is long and no better to look at.
-      bool eligible = !best.method || !measured.method->description().random;
-      if (eligible && (!best.method || measured.error < best.error)) best = measured;
+      if (asked.max_error && stated(measured, wavelengths) <= *asked.max_error) return measured;
+      // Walks that miss what was asked are long and no better to look at, but for those that
+      // there is time for.
+      const bool eligible = !best || !random || asked.max_ms;
+      if (eligible && (!best || stated(measured, wavelengths) < stated(*best, wavelengths)))
+        best = measured;
+      but_for_ground |= asked.max_error && !random &&
+                        std::hypot(measured.error, wavelengths.error) <= *asked.max_error;
     }
-    return best;
+    return *best;
+  }
+
+  /// What the plan of a choice says of its error.
+  double stated(const Choice& choice, const Wavelengths& wavelengths) const {
+    return std::min(1.0, std::hypot(choice.error, wavelengths.error) + error_on_ground(choice));
+  }
+
+  /// What no setting of the choice's method makes less: no reason to prefer another setting.
+  double error_on_ground(const Choice& choice) const {
+    if (in_.scene.method.verify || choice.method->description().random) return 0;
+    if (single_scattering(in_.scene) || !problem_.ground) return 0;
+    return has_heights(problem_) ? common_error_of_heights : common_error_of_ground;
   }
 
  private:
@@ -245,19 +261,20 @@ class Planner {
     return rung;
   }
 
-  Choice choice(const Method& method, const MethodOptions& options) const {
+  Choice choice(const Method& method, const MethodOptions& options,
+                const Wavelengths& wavelengths) const {
     return {
         &method, options,
-        expected_ms(in_.profile, method, options, problem_, in_.rays, wavelengths_.nm.size()),
+        expected_ms(in_.profile, method, options, problem_, in_.rays, wavelengths.nm.size()),
         1};
   }
 
   /// Cheapest first.
-  std::vector<Choice> candidates() const {
+  std::vector<Choice> candidates(const Wavelengths& wavelengths) const {
     std::vector<Choice> all;
     for (const auto& each : in_.methods) {
       for (const MethodOptions& options : each->description().ladder) {
-        all.push_back(choice(*each, options));
+        all.push_back(choice(*each, options, wavelengths));
       }
     }
     std::ranges::stable_sort(all, {}, &Choice::ms);
@@ -280,10 +297,18 @@ class Planner {
 
   /// With its error.
   Choice judged(Choice given) const {
-    given.error = std::min(1.0, given.method->description().random
-                                    ? noise_of(given)
-                                    : judge_->bound(probe(*given.method, given.options)));
+    const MethodChoice& asked = in_.scene.method;
+    given.error = given.method->description().random ? noise_of(given) : measured(given);
+    // What is to be verified is told of many walks by looking at them.
+    if (given.method->description().random && asked.verify &&
+        given.error <= asked.max_error.value_or(1))
+      given.error = measured(given);
+    given.error = std::min(1.0, given.error);
     return given;
+  }
+
+  double measured(const Choice& given) const {
+    return judge_->bound(probe(*given.method, given.options));
   }
 
   /// Noise falls with the root of the number of walks, so that of a few, looked at once, tells
@@ -299,26 +324,25 @@ class Planner {
   }
 
   const PlanInputs& in_;
-  const Wavelengths& wavelengths_;
   std::vector<double> few_;
   Problem problem_;
   std::unique_ptr<Judge> judge_;
   mutable std::optional<double> few_walks_noise_;
 };
 
-/// As many as colour needs, told from single scattering.
-Wavelengths choose_wavelengths(const PlanInputs& inputs, double tolerance) {
+/// Ever more, until they are as many as colour needs, told from single scattering.
+std::vector<Wavelengths> choose_wavelengths(const PlanInputs& inputs, double tolerance) {
   if (!inputs.scene.spectrum.wavelengths_nm.empty()) {
-    return {inputs.scene.spectrum.wavelengths_nm, 0};
+    return {{inputs.scene.spectrum.wavelengths_nm, 0}};
   }
   auto trace = [&](int count) {
     return inputs.probe("raymarch", coarse_march, colour_wavelengths(count));
   };
   Samples reference = trace(64);
-  Wavelengths chosen;
+  std::vector<Wavelengths> chosen;
   for (int count : wavelength_ladder) {
-    chosen = {colour_wavelengths(count), measure_error(trace(count), reference).error};
-    if (chosen.error <= tolerance) break;
+    chosen.push_back({colour_wavelengths(count), measure_error(trace(count), reference).error});
+    if (chosen.back().error <= tolerance) break;
   }
   return chosen;
 }
@@ -353,7 +377,10 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
   if (choice.method->description().highest_order == 1 && !single_scattering(inputs.scene)) {
     text << " It leaves out multiple scattering.";
   }
-  if (!plan.met) text << " That misses what was asked; nothing better is there.";
+  if (!plan.met) {
+    text << " That misses what was asked; nothing better is there"
+         << (inputs.scene.method.max_ms ? "." : ", but for walks without end.");
+  }
   return text.str();
 }
 
@@ -368,36 +395,33 @@ double expected_ms(const DeviceProfile& profile, const Method& method,
   return evaluations / profile.pace(method.description().name);
 }
 
-namespace {
-
-/// What no setting of the choice's method makes less: no reason to prefer another setting.
-double error_on_ground(const PlanInputs& inputs, const Choice& choice) {
-  if (inputs.scene.method.verify || choice.method->description().random) return 0;
-  if (single_scattering(inputs.scene)) return 0;
-  Problem problem = make_problem(inputs.scene, few_wavelengths(inputs.scene));
-  if (!problem.ground) return 0;
-  return has_heights(problem) ? common_error_of_heights : common_error_of_ground;
-}
-
-}  // namespace
-
 Plan make_plan(const PlanInputs& inputs) {
   const MethodChoice& asked = inputs.scene.method;
-  bool automatic = asked.name == "auto";
-  double tolerance = automatic ? asked.max_error.value_or(usual_error) : usual_error;
+  const bool automatic = asked.name == "auto";
+  const double tolerance = automatic ? asked.max_error.value_or(usual_error) : usual_error;
+  std::vector<Wavelengths> wavelengths = choose_wavelengths(inputs, tolerance / 2);
+  const Planner planner(inputs);
+  const auto choose = [&] {
+    return automatic ? planner.cheapest(wavelengths.back())
+                     : planner.as_asked(wavelengths.back());
+  };
+  Choice choice = choose();
+  // Where only time is asked, colour too is worth no more than there is.
+  const auto late = [&] { return asked.max_ms && choice.ms > *asked.max_ms; };
+  while (automatic && !asked.max_error && late() && wavelengths.size() > 1) {
+    wavelengths.pop_back();
+    choice = choose();
+  }
   Plan plan;
-  Wavelengths wavelengths = choose_wavelengths(inputs, tolerance / 2);
-  plan.wavelengths_nm = wavelengths.nm;
-  Planner planner(inputs, wavelengths);
-  Choice choice = automatic ? planner.cheapest() : planner.as_asked();
+  plan.wavelengths_nm = wavelengths.back().nm;
   plan.method = choice.name();
   plan.options = choice.options;
   plan.expected_ms = choice.ms;
-  double on_ground = error_on_ground(inputs, choice);
-  plan.expected_error = std::min(1.0, std::hypot(choice.error, wavelengths.error) + on_ground);
-  plan.met = !automatic || ((!asked.max_error || plan.expected_error <= *asked.max_error) &&
-                            (!asked.max_ms || plan.expected_ms <= *asked.max_ms));
-  plan.why = explain(inputs, plan, choice, wavelengths.error, on_ground);
+  plan.expected_error = planner.stated(choice, wavelengths.back());
+  plan.met =
+      !automatic || ((!asked.max_error || plan.expected_error <= *asked.max_error) && !late());
+  plan.why =
+      explain(inputs, plan, choice, wavelengths.back().error, planner.error_on_ground(choice));
   return plan;
 }
 
