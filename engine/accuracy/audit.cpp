@@ -95,7 +95,7 @@ AuditRow row_of(const std::vector<json>& scenes, double asked) {
         ++row.scenes;
         if (error > asked) continue;
         ++row.kept;
-        over_cheapest.push_back(plan.at("ms").get<double>() / *cheapest);
+        over_cheapest.push_back(choice.at("ms").get<double>() / *cheapest);
       }
     }
   }
