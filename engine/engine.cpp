@@ -915,8 +915,8 @@ std::string atmosphere_key(const Scene& scene) {
   nlohmann::json document = canonical(scene);
   nlohmann::json& planet = document["planet"];
   // Of a ground that differs from place to place tables know the mean.
-  if (auto ground = make_ground(scene, some_wavelengths_of(scene))) {
-    planet = {{"radius_km", scene.planet.radius_km}, {"ground_albedo", mean_albedo(*ground)}};
+  if (auto mean = mean_albedo(scene, some_wavelengths_of(scene))) {
+    planet = {{"radius_km", scene.planet.radius_km}, {"ground_albedo", *mean}};
   }
   nlohmann::json air{planet, document["atmosphere"], document["spectrum"]};
   return fingerprint(air.dump());

@@ -69,7 +69,7 @@ nlohmann::json plan_document(const Plan& plan);
 struct Frame {
   int width = 0, height = 0;
   struct Plane {
-    std::string channel;   ///< EXR channel name: "R", "inscatter.G", "550nm", "transmittance.B"
+    std::string channel;   ///< EXR channel name: "R", "550,5nm", "transmittance.B"
     const float* samples;  ///< height rows of width, from the top; valid while the frame lives
   };
   std::vector<Plane> planes;            ///< image channels first, then layers

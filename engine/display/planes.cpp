@@ -29,10 +29,13 @@ int shown(const Problem& problem) {
   return quantities;
 }
 
-/// With the fewest digits that tell it from all others.
+/// With the fewest digits that tell it from all others, and a comma where a number has a dot:
+/// in the names of an EXR a dot ends that of a layer [Fichet et al. 2021, An OpenEXR Layout for
+/// Spectral Images].
 std::string wavelength_name(double nm) {
   std::array<char, 32> digits;
   char* end = std::to_chars(digits.data(), digits.data() + digits.size(), nm).ptr;
+  std::replace(digits.data(), end, '.', ',');
   return std::string(digits.data(), end) + "nm";
 }
 

@@ -20,7 +20,9 @@ const std::vector<Encoder>& encoders() {
   static const std::vector<Encoder> all{
       {{ImageFormat::png, "png", "image/png", {".png"}, kDisplayed}, encode_png},
       {{ImageFormat::exr, "exr", "image/x-exr", {".exr"}, kLinear}, encode_exr},
-      {{ImageFormat::jpeg, "jpeg", "image/jpeg", {".jpg", ".jpeg"}, kDisplayed}, encode_jpeg},
+      // As libjpeg has it [jmorecfg.h]; columns are fewer by the scene.
+      {{ImageFormat::jpeg, "jpeg", "image/jpeg", {".jpg", ".jpeg"}, kDisplayed, 65500},
+       encode_jpeg},
       {{ImageFormat::hdr, "hdr", "image/vnd.radiance", {".hdr", ".pic"}, kLinear}, encode_hdr},
       {{ImageFormat::npy, "npy", "application/x-npy", {".npy"}, kLinear}, encode_npy},
   };

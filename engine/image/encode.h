@@ -1,6 +1,7 @@
 // Frame to bytes, on any thread.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@ struct Encoding {
                                              ///< "image/vnd.radiance", "application/x-npy"
   std::vector<std::string_view> extensions;  ///< the first is the usual one
   bool displayed;  ///< wants Frame::rgbx; the others want linear planes
+  int most_rows = std::numeric_limits<int>::max();  ///< that a file of it may have
 };
 /// All formats; the place where an encoder is registered.
 const std::vector<Encoding>& encodings();

@@ -248,6 +248,16 @@ ExrImage read_exr(std::string_view bytes, const std::vector<std::string>& channe
   return with_own_errors([&] { return read(bytes, channels, width, height, endless); });
 }
 
+void check_rec709(const ExrImage& image) {
+  if (image.rec709) return;
+  throw ImageError("The EXR's chromaticities are not those of Rec. 709 with white D65.");
+}
+
+bool exr_has_channel(std::string_view bytes, const std::string& channel) {
+  return with_own_errors(
+      [&] { return checked_header(bytes).channels().findChannel(channel) != nullptr; });
+}
+
 ExrSize exr_size(std::string_view bytes) {
   return with_own_errors([&] { return size_of(checked_header(bytes)); });
 }

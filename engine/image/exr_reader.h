@@ -34,10 +34,16 @@ struct ExrImage {
 ExrImage read_exr(std::string_view bytes, const std::vector<std::string>& channels, int width,
                   int height, std::string_view endless = {});
 
+/// @throws ImageError where its colours are not those of Rec. 709
+void check_rec709(const ExrImage& image);
+
 /// Columns and rows, from the header alone. @throws ImageError
 struct ExrSize {
   std::int64_t width = 0, height = 0;
 };
 ExrSize exr_size(std::string_view bytes);
+
+/// From the header alone. @throws ImageError
+bool exr_has_channel(std::string_view bytes, const std::string& channel);
 
 }  // namespace cyanometer

@@ -28,9 +28,9 @@ Rgbe to_rgbe(std::array<float, 3> rgb) {
   int exponent = 0;
   if (std::frexp(largest, &exponent) >= 255.5f / 256)
     ++exponent;  // its mantissa rounds up to 256
-  const float scale = std::ldexp(1.0f, 8 - exponent);
-  const auto mantissa = [scale](float v) {
-    return static_cast<unsigned char>(v * scale + 0.5f);
+  // Not times a power of two: of the darkest colours that is more than a float holds.
+  const auto mantissa = [exponent](float v) {
+    return static_cast<unsigned char>(std::ldexp(v, 8 - exponent) + 0.5f);
   };
   return {mantissa(rgb[0]), mantissa(rgb[1]), mantissa(rgb[2]),
           static_cast<unsigned char>(exponent + 128)};

@@ -1,6 +1,8 @@
 #include "engine/image/picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/problem.h"
@@ -11,18 +13,30 @@ namespace {
 /// Of the file's colours to the frame's.
 double unit_scale(const ExrImage& image, const Scene& scene) {
   if (scene.spectrum.colour != Colour::cie) return 1;
-  if (!image.rec709) {
-    throw ImageError("The EXR's chromaticities are not those of Rec. 709 with white D65.");
+  check_rec709(image);
+  if (!image.white_luminance) return 1;
+  if (!std::isfinite(*image.white_luminance)) {
+    throw ImageError("The EXR's whiteLuminance is " + std::to_string(*image.white_luminance) +
+                     "; it is a number of cd/m^2, or 0 where that is not known.");
   }
-  if (!image.white_luminance || *image.white_luminance <= 0) return 1;
+  if (*image.white_luminance <= 0) return 1;
   return *image.white_luminance / Output{}.white_luminance;
 }
 
 /// The first three planes.
-void scale_colours(ExrImage& image, double scale) {
+void scale_colours(ExrImage& image, double scale, int width) {
   if (scale == 1) return;
   for (std::size_t c = 0; c < 3; ++c) {
-    for (float& value : image.planes[c]) value *= static_cast<float>(scale);
+    std::vector<float>& plane = image.planes[c];
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const double scaled = plane[i] * scale;
+      if (std::abs(scaled) > std::numeric_limits<float>::max()) {
+        throw ImageError("The EXR's channel " + std::string(1, "RGB"[c]) + " at column " +
+                         std::to_string(i % width) + ", row " + std::to_string(i / width) +
+                         " is more than a float holds once it is scaled to the frame's unit.");
+      }
+      plane[i] = static_cast<float>(scaled);
+    }
   }
 }
 
@@ -39,7 +53,7 @@ void check_distances(const std::vector<float>& km, int width) {
 
 ExrImage read_frame(std::string_view bytes, const Scene& scene) {
   ExrImage image = read_exr(bytes, {"R", "G", "B"}, scene.image.width, scene.image.height);
-  scale_colours(image, unit_scale(image, scene));
+  scale_colours(image, unit_scale(image, scene), scene.image.width);
   return image;
 }
 
@@ -47,7 +61,7 @@ Picture read_picture(std::string_view bytes, const Scene& scene, double scale) {
   ExrImage image =
       read_exr(bytes, {"R", "G", "B", "Z"}, scene.image.width, scene.image.height, "Z");
   check_distances(image.planes[3], scene.image.width);
-  scale_colours(image, scale * unit_scale(image, scene));
+  scale_colours(image, scale * unit_scale(image, scene), scene.image.width);
   auto& planes = image.planes;
   return {{std::move(planes[0]), std::move(planes[1]), std::move(planes[2])},
           std::move(planes[3])};

@@ -12,7 +12,8 @@ namespace cyanometer {
 
 /// R, G, B of an EXR of the frame's size in the frame's unit: one that says what its 1.0 means
 /// (whiteLuminance) is scaled to what the frame's means.
-/// @throws ImageError as read_exr does, and where colours are not of Rec. 709
+/// @throws ImageError as read_exr does, and where colours are not of Rec. 709, the unit is not
+/// finite, or what is scaled to the frame's is more than a float holds
 ExrImage read_frame(std::string_view bytes, const Scene& scene);
 
 /// What stands in the air and beyond it, seen by a frame's rays; rows from the top.

@@ -261,12 +261,15 @@ struct Sums {
 
 /// Steps fine enough for the distribution and for the interference between light through a
 /// sphere and light around it, as far as a bounded time allows; a power of two of the finest.
+/// Of a bell's curve steps of one deviation give the area to 1e-8: none is wider, and narrow
+/// distributions take few.
 int stride_for(const MieSpheres& s, const Range& sizes) {
   constexpr double most_terms = 1.5e5;  // of all series together
   const double largest = std::exp(std::min(sizes.last, std::log(largest_size_parameter)));
-  const double step =
-      std::max(std::min(std::log(s.geometric_sigma) / 4, 0.4 / std::exp(sizes.peak)),
-               largest / most_terms);
+  const double deviation = std::log(s.geometric_sigma);
+  const double step = std::min(
+      std::max(std::min(deviation / 4, 0.4 / std::exp(sizes.peak)), largest / most_terms),
+      deviation);
   return static_cast<int>(
       std::bit_floor(static_cast<unsigned>(std::max(step / finest_step, 1.0))));
 }

@@ -37,6 +37,13 @@ void check_shape(const Image& image, const At& at) {
            "a cubemap is a strip of six faces");
 }
 
+void check_rows(const Image& image, const At& at) {
+  const Encoding& file = encoding(image.format);
+  if (image.height <= file.most_rows) return;
+  refuse(at / "height", image.height, "at most " + std::to_string(file.most_rows),
+         "a file of format " + std::string(file.name) + " has no more rows");
+}
+
 Spelled<ImageFormat> format() {
   std::vector<std::pair<std::string, ImageFormat>> names;
   for (const Encoding& one : encodings()) names.emplace_back(one.name, one.format);
@@ -128,7 +135,7 @@ ObjectOf<Image> image_members() {
                              {"clipped", &Show::clipped}}),
              "Show",
              "What is shown; clipped paints the pixels that are too bright to be shown."),
-      Rule<Image>(check_shape));
+      Rule<Image>(check_shape), Rule<Image>(check_rows));
 }
 
 }  // namespace cyanometer

@@ -10,6 +10,24 @@ namespace {
 
 using P = physics::Physics<double>;
 
+/// Ground of a map, but for its images.
+Ground coloured(const std::array<double, 3>& mean_rgb,
+                const std::vector<double>& wavelengths_nm) {
+  Ground ground;
+  ground.kind = P::SURFACE_MAP;
+  ground.slope_variance = 1;  // idle: no sea mirrors
+  ground.sea_reflectance.assign(P::SEA_NODES, 0.0);
+  ground.mean_share.assign(P::MATTERS, 0.0);
+  ground.albedo.assign(P::MATTERS, std::vector<double>(wavelengths_nm.size(), 0.0));
+  for (int c = 0; c < 3; ++c) {
+    ground.mean_share[P::RED + c] = mean_rgb[c];
+    for (std::size_t w = 0; w < wavelengths_nm.size(); ++w) {
+      ground.albedo[P::RED + c][w] = reflectance_basis(wavelengths_nm[w])[c];
+    }
+  }
+  return ground;
+}
+
 struct Making {
   const Scene& scene;
   const std::vector<double>& wavelengths_nm;
@@ -43,20 +61,10 @@ struct Making {
   }
 
   std::optional<Ground> operator()(const MapSurface& surface) const {
-    Ground ground;
-    ground.kind = P::SURFACE_MAP;
-    ground.images = surface_images(surface);
+    auto images = surface_images(surface);
+    Ground ground = coloured(images->mean_rgb, wavelengths_nm);
+    ground.images = std::move(images);
     ground.relief_km = surface.height.empty() ? 0 : surface.height_km;
-    ground.slope_variance = 1;  // idle: no sea mirrors
-    ground.sea_reflectance.assign(P::SEA_NODES, 0.0);
-    ground.mean_share.assign(P::MATTERS, 0.0);
-    ground.albedo.assign(P::MATTERS, std::vector<double>(wavelengths_nm.size(), 0.0));
-    for (int c = 0; c < 3; ++c) {
-      ground.mean_share[P::RED + c] = ground.images->mean_rgb[c];
-      for (std::size_t w = 0; w < wavelengths_nm.size(); ++w) {
-        ground.albedo[P::RED + c][w] = reflectance_basis(wavelengths_nm[w])[c];
-      }
-    }
     ground.latitude_deg = scene.camera.latitude_deg;
     ground.longitude_deg = scene.camera.longitude_deg;
     return ground;
@@ -81,6 +89,15 @@ std::vector<double> mean_albedo(const Ground& ground) {
     }
   }
   return mean;
+}
+
+std::optional<std::vector<double>> mean_albedo(const Scene& scene,
+                                               const std::vector<double>& wavelengths_nm) {
+  if (const auto* map = std::get_if<MapSurface>(&scene.planet.surface)) {
+    return mean_albedo(coloured(surface_mean_rgb(*map), wavelengths_nm));
+  }
+  auto ground = make_ground(scene, wavelengths_nm);
+  return ground ? std::optional(mean_albedo(*ground)) : std::nullopt;
 }
 
 double height_at_foot_km(const Ground& ground, double planet_radius_km) {

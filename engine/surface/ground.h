@@ -29,6 +29,10 @@ std::optional<Ground> make_ground(const Scene& scene,
 /// Of Lambertian ground that reflects as much as all of it does under an even sky, by
 /// wavelength: what tables take for the light that goes from the ground back into the air.
 std::vector<double> mean_albedo(const Ground& ground);
+/// The same of the scene's ground, without reading a map whose colours are known; none where
+/// the ground is the same everywhere.
+std::optional<std::vector<double>> mean_albedo(const Scene& scene,
+                                               const std::vector<double>& wavelengths_nm);
 
 /// Of the ground under the camera, km above the sea.
 double height_at_foot_km(const Ground& ground, double planet_radius_km);

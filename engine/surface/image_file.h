@@ -22,11 +22,12 @@ struct MapPixels {
 /// Colours of a PNG or JPEG (sRGB), or of an EXR (R, G, B; linear Rec. 709).
 /// @param extension  png, jpg, exr
 /// @throws ImageError where the bytes are no such file, are damaged, or the image is too large
-/// or not twice as wide as high
+/// or not twice as wide as high; where an EXR names other primaries
 MapPixels read_colours(std::string_view bytes, const std::string& extension);
 
-/// Heights, as they stand in the file: of a PNG's grey in 8 or 16 bits, of a JPEG, or of an
-/// EXR's Y or else R. Colours are taken for their mean. @throws ImageError as above
+/// Heights, as they stand in the file, whatever it says of gamma: of a PNG in 8 or 16 bits, of
+/// a JPEG, or of an EXR's Y or else R. Of a PNG or JPEG in colour they are the mean of red,
+/// green and blue; opacity is left out. @throws ImageError as above
 MapPixels read_heights(std::string_view bytes, const std::string& extension);
 
 }  // namespace cyanometer

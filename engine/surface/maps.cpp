@@ -6,10 +6,13 @@
 #include <fstream>
 #include <iterator>
 #include <list>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "engine/attention.h"
+#include "engine/engine.h"
 #include "engine/scene/document.h"
 #include "engine/surface/image_file.h"
 
@@ -22,10 +25,15 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t most_file_bytes = std::uintmax_t{256} << 20;
 
 struct Library {
+  /// Of what follows; not held while a file is read.
   std::mutex mutex;
   fs::path folder;
   std::size_t most_bytes = std::size_t{64} << 20;
-  std::list<std::shared_ptr<const SurfaceImages>> kept;  ///< used last first
+  std::list<std::shared_ptr<const SurfaceImages>> kept;              ///< used last first
+  std::map<std::string, std::weak_ptr<const SurfaceImages>> living;  ///< by key, kept or not
+  std::map<std::string, std::array<double, 3>> mean_rgb;             ///< by state of a file
+  /// Held by the one who reads: what is decoded takes hundreds of MiB meanwhile.
+  std::mutex reading;
 };
 
 Library& library() {
@@ -37,16 +45,14 @@ Library& library() {
 struct NamedFile {
   std::string pointer, name;
   fs::path path;
+  std::string state;  ///< name, size and time when it was found
 
   [[noreturn]] void refuse(const std::string& why) const {
     throw SceneError(pointer, nlohmann::json(name).dump(),
                      "the name of a .png, .jpg or .exr image in the surfaces' folder", why);
   }
-  std::string extension() const { return path.extension().string().substr(1); }
-  std::string state() const {
-    return name + " " + std::to_string(fs::file_size(path)) + " " +
-           std::to_string(fs::last_write_time(path).time_since_epoch().count());
-  }
+  /// Of the name: a link leads where it likes.
+  std::string extension() const { return name.substr(name.rfind('.') + 1); }
   std::string bytes() const {
     std::ifstream file(path, std::ios::binary);
     std::string all(std::istreambuf_iterator<char>(file), {});
@@ -55,8 +61,12 @@ struct NamedFile {
   }
 };
 
+bool is_within(const fs::path& path, const fs::path& root) {
+  return std::ranges::mismatch(root, path).in1 == root.end();
+}
+
 NamedFile file_of(const fs::path& folder, const char* member, const std::string& name) {
-  NamedFile file{std::string("/planet/surface/") + member, name, {}};
+  NamedFile file{std::string("/planet/surface/") + member, name, {}, {}};
   if (folder.empty()) file.refuse("this server has no folder of surfaces (--surfaces)");
   std::error_code failed;
   fs::path root = fs::canonical(folder, failed);
@@ -64,8 +74,11 @@ NamedFile file_of(const fs::path& folder, const char* member, const std::string&
   file.path = fs::canonical(root / name, failed);
   // A link may lead within the folder, and nowhere else.
   if (failed || !fs::is_regular_file(file.path)) file.refuse("there is no such file");
-  if (file.path.parent_path() != root) file.refuse("it leads out of the folder");
-  if (fs::file_size(file.path) > most_file_bytes) file.refuse("the file is too large");
+  if (!is_within(file.path, root)) file.refuse("it leads out of the folder");
+  const std::uintmax_t size = fs::file_size(file.path);
+  if (size > most_file_bytes) file.refuse("the file is too large");
+  file.state = name + " " + std::to_string(size) + " " +
+               std::to_string(fs::last_write_time(file.path).time_since_epoch().count());
   return file;
 }
 
@@ -74,10 +87,14 @@ struct MapFiles {
   NamedFile colours;
   std::optional<NamedFile> heights;
 
-  std::string key() const { return colours.state() + (heights ? " " + heights->state() : ""); }
+  std::string key() const { return colours.state + (heights ? " " + heights->state : ""); }
 };
 
-MapFiles files_of(const fs::path& folder, const MapSurface& surface) {
+MapFiles files_of(const MapSurface& surface) {
+  const fs::path folder = [] {
+    const std::lock_guard lock(library().mutex);
+    return library().folder;
+  }();
   MapFiles files{file_of(folder, "albedo", surface.albedo), {}};
   if (!surface.height.empty()) files.heights = file_of(folder, "height", surface.height);
   return files;
@@ -153,6 +170,9 @@ MapPixels read_or_refuse(const NamedFile& file, Read read) {
 }
 
 std::shared_ptr<const SurfaceImages> load(const std::string& key, const MapFiles& files) {
+  // Others wait for it: it gives way to no job, which might wait for them.
+  const Watch nobody;
+  const Attention undisturbed(nobody);
   auto images = std::make_shared<SurfaceImages>();
   std::vector<std::uint32_t> texels;
   images->key = key;
@@ -167,49 +187,71 @@ std::shared_ptr<const SurfaceImages> load(const std::string& key, const MapFiles
 
 std::size_t bytes_of(const SurfaceImages& images) { return 4 * images.texels->size(); }
 
-void keep(Library& all, std::shared_ptr<const SurfaceImages> images) {
-  all.kept.push_front(std::move(images));
+/// These first; then what there is room for. A map too large for it is kept until another is
+/// used: one frame asks for its own many times over.
+void keep(Library& all, const std::shared_ptr<const SurfaceImages>& images) {
+  all.kept.remove(images);
+  all.kept.push_front(images);
   std::size_t bytes = 0;
   std::erase_if(all.kept, [&](const auto& each) {
     bytes += bytes_of(*each);
-    return bytes > all.most_bytes;
+    return each != images && bytes > all.most_bytes;
   });
+}
+
+std::shared_ptr<const SurfaceImages> known(Library& all, const std::string& key) {
+  const std::lock_guard lock(all.mutex);
+  auto found = all.living.find(key);
+  auto images = found == all.living.end() ? nullptr : found->second.lock();
+  if (images) keep(all, images);
+  return images;
+}
+
+void remember(Library& all, const MapFiles& files,
+              const std::shared_ptr<const SurfaceImages>& images) {
+  constexpr std::size_t most_means = 4096;
+  const std::lock_guard lock(all.mutex);
+  std::erase_if(all.living, [](const auto& each) { return each.second.expired(); });
+  all.living[images->key] = images;
+  if (all.mean_rgb.size() >= most_means) all.mean_rgb.clear();
+  all.mean_rgb[files.colours.state] = images->mean_rgb;
+  keep(all, images);
 }
 
 }  // namespace
 
 void use_surfaces(const fs::path& folder, std::size_t most_bytes) {
   Library& all = library();
-  std::lock_guard lock(all.mutex);
+  const std::lock_guard lock(all.mutex);
   all.folder = folder;
   all.most_bytes = most_bytes;
   all.kept.clear();
+  all.living.clear();
+  all.mean_rgb.clear();
 }
 
-std::string surface_key(const MapSurface& surface) {
+std::string surface_key(const MapSurface& surface) { return files_of(surface).key(); }
+
+std::array<double, 3> surface_mean_rgb(const MapSurface& surface) {
   Library& all = library();
-  std::lock_guard lock(all.mutex);
-  return files_of(all.folder, surface).key();
+  const std::string state = files_of(surface).colours.state;
+  {
+    const std::lock_guard lock(all.mutex);
+    auto found = all.mean_rgb.find(state);
+    if (found != all.mean_rgb.end()) return found->second;
+  }
+  return surface_images(surface)->mean_rgb;
 }
 
 std::shared_ptr<const SurfaceImages> surface_images(const MapSurface& surface) {
   Library& all = library();
-  std::unique_lock lock(all.mutex);
-  MapFiles files = files_of(all.folder, surface);
-  std::string key = files.key();
-  auto known = [&]() -> std::shared_ptr<const SurfaceImages> {
-    auto found = std::ranges::find(all.kept, key, [](const auto& each) { return each->key; });
-    if (found == all.kept.end()) return nullptr;
-    all.kept.splice(all.kept.begin(), all.kept, found);
-    return all.kept.front();
-  };
-  if (auto images = known()) return images;
-  // Reading gives way to shorter jobs on this thread, which may want a map too.
-  lock.unlock();
+  const MapFiles files = files_of(surface);
+  const std::string key = files.key();
+  if (auto images = known(all, key)) return images;
+  const std::lock_guard one_at_a_time(all.reading);
+  if (auto images = known(all, key)) return images;  // another has read it meanwhile
   auto images = load(key, files);
-  lock.lock();
-  if (auto other = known()) return other;
-  keep(all, images);
+  remember(all, files, images);
   return images;
 }
 

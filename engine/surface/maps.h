@@ -1,4 +1,5 @@
-// Maps of surfaces, in the operator's folder: read once, and kept while there is room.
+// Maps of surfaces, in the operator's folder: read once for all who have them at the time, and
+// kept while there is room.
 #pragma once
 
 #include <array>
@@ -24,12 +25,16 @@ struct SurfaceImages {
 };
 
 /// Where maps are, and the most bytes of them that are kept; an empty folder: there are none.
-/// For the whole process.
+/// The map used last is kept however large it is. For the whole process.
 void use_surfaces(const std::filesystem::path& folder, std::size_t most_bytes);
 
+/// One map is read at a time; who wants one meanwhile waits.
 /// @throws SceneError with the member's pointer where no folder is configured, or a file is not
 /// there, is none, leads out of the folder or cannot be read as an image
 std::shared_ptr<const SurfaceImages> surface_images(const MapSurface& surface);
+
+/// Their `mean_rgb`, without reading a file of colours whose mean is known. @throws as they do
+std::array<double, 3> surface_mean_rgb(const MapSurface& surface);
 
 /// The `key` that they would have if they were read now; nothing is read. @throws as they do,
 /// but for what is in the files

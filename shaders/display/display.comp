@@ -24,13 +24,25 @@ layout(push_constant) uniform Push {
   int end;
 } push;
 
+float greatest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// Whether a colour is too bright to be shown. No grey comes out of AgX as white, however bright: there it is
+// one beyond the curve's range. The other two that reach no end show as white in 8 bits what is near enough.
+bool clips(vec3 rgb, vec3 shown) {
+  if (greatest(shown) > 1.0) return true;
+  if (TONE_MAP == TONE_AGX) return greatest(agx_inset(rgb)) > exp2(AGX_MOST_EV);
+  bool endless = TONE_MAP == TONE_REINHARD || TONE_MAP == TONE_EXPONENTIAL;
+  return endless && srgb_encoded(greatest(shown)) * 255.0 >= 254.5;
+}
+
 void main() {
   int i = push.first + int(gl_GlobalInvocationID.x);
   if (i >= push.end) return;
   vec3 linear = by_rows(push.row0.xyz, push.row1.xyz, push.row2.xyz,
                         vec3(imageLoad(red, i).x, imageLoad(green, i).x, imageLoad(blue, i).x));
-  vec3 shown = tone_mapped(TONE_MAP, into_gamut(linear));
-  bool clipped = max(shown.x, max(shown.y, shown.z)) > 1.0;
+  vec3 rgb = into_gamut(linear);
+  vec3 shown = tone_mapped(TONE_MAP, rgb);
+  bool clipped = clips(rgb, shown);
   shown = clamp(shown, 0.0, 1.0);
   vec3 encoded = vec3(srgb_encoded(shown.x), srgb_encoded(shown.y), srgb_encoded(shown.z));
   if (PAINT_CLIPPED && clipped) encoded = vec3(1.0, 0.0, 1.0);

@@ -34,16 +34,23 @@ Vec3 aces(Vec3 rgb) {
                  Vec3(-0.00327, -0.07276, 1.07602), a / b);
 }
 
+// The range of AgX's curve.
+CONSTANT Real AGX_LEAST_EV = -12.47393;
+CONSTANT Real AGX_MOST_EV = 4.026069;
+
+// What AgX's curve is laid over: colours nearer to grey.
+Vec3 agx_inset(Vec3 rgb) {
+  return by_rows(Vec3(0.842479062253094, 0.0784335999999992, 0.0792237451477643),
+                 Vec3(0.0423282422610123, 0.878468636469772, 0.0791661274605434),
+                 Vec3(0.0423756549057051, 0.0784336, 0.879142973793104), rgb);
+}
+
 // AgX (Troy Sobotka) with its "punchy" look, the base curve as a polynomial in the logarithm (Benjamin
 // Wrensch's fit): the base look alone leaves a blue sky grey. The curve's output is encoded with an
 // exponent of 2.2; linear light is returned.
 Vec3 agx(Vec3 rgb) {
-  Vec3 v = by_rows(Vec3(0.842479062253094, 0.0784335999999992, 0.0792237451477643),
-                   Vec3(0.0423282422610123, 0.878468636469772, 0.0791661274605434),
-                   Vec3(0.0423756549057051, 0.0784336, 0.879142973793104), rgb);
-  Real least_ev = -12.47393;
-  Real most_ev = 4.026069;
-  Vec3 x = clamp((log2(max(v, Vec3(1e-10))) - least_ev) / (most_ev - least_ev), 0.0, 1.0);
+  Vec3 ev = log2(max(agx_inset(rgb), Vec3(1e-10)));
+  Vec3 x = clamp((ev - AGX_LEAST_EV) / (AGX_MOST_EV - AGX_LEAST_EV), 0.0, 1.0);
   Vec3 curve = ((((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191) * x -
                 0.00232);
   Vec3 strong = pow(max(curve, Vec3(0.0)), Vec3(1.35));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,8 +36,12 @@ class FileInMemory : public Imf::OStream {
 
 using Channels = std::map<std::string, std::vector<float>>;  ///< rows from the top
 
-inline std::string picture_file(int width, int height, Channels channels) {
+/// @param more  sets attributes of the header
+inline std::string picture_file(
+    int width, int height, Channels channels,
+    const std::function<void(Imf::Header&)>& more = [](Imf::Header&) {}) {
   Imf::Header header(width, height);
+  more(header);
   Imf::FrameBuffer buffer;
   for (auto& [name, plane] : channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));

@@ -510,11 +510,11 @@ TEST(Hdr, IsWithinHalfAUnitOfItsMantissaAtEverySize) {
 }
 
 TEST(Hdr, HoldsWhatItsExponentReaches) {
-  Picture picture({8, 1});
-  picture.values[0] = {1, 255.9f, 0.99999f, 1e-30f, 0, -5, 1.7e38f, 1e-40f};
+  Picture picture({10, 1});
+  picture.values[0] = {1, 255.9f, 0.99999f, 1e-30f, 0, -5, 1.7e38f, 1e-40f, 1e-37f, 0x1p-127f};
   const Hdr hdr = read_hdr(encoded(picture, ImageFormat::hdr));
-  const double expected[] = {1, 256, 1, 1e-30, 0, 0, 1.7e38, 0};
-  for (std::size_t i = 0; i < 8; ++i)
+  const double expected[] = {1, 256, 1, 1e-30, 0, 0, 1.7e38, 0, 1e-37, 0x1p-127};
+  for (std::size_t i = 0; i < 10; ++i)
     EXPECT_NEAR(hdr.rgb(i)[0], expected[i], expected[i] / 256) << i;
 }
 

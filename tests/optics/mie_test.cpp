@@ -136,6 +136,22 @@ TEST(MieSizes, ANarrowDistributionIsOneSize) {
     EXPECT_NEAR(narrow.phase[0][j] / one.phase[0][j], 1, 5e-3);
 }
 
+TEST(MieSizes, ANarrowDistributionOfLargeSpheresIsOneSize) {
+  for (std::complex<double> m : {std::complex<double>(1.33, 0.01), {1.33, 0}}) {
+    const auto one = mie_optics({50, 1, {m.real(), m.imag()}}, {400, 700});
+    for (double sigma : {1.001, 1.005}) {
+      const auto narrow = mie_optics({50, sigma, {m.real(), m.imag()}}, {400, 700});
+      for (std::size_t w = 0; w < 2; ++w) {
+        SCOPED_TRACE(testing::Message() << m << ", " << sigma << ", " << w);
+        // Through clear spheres light interferes with light around them, by size.
+        const double bound = m.imag() > 0 ? 1e-3 : 1e-2;
+        EXPECT_NEAR(narrow.extinction_um2[w] / one.extinction_um2[w], 1, bound);
+        EXPECT_NEAR(narrow.scattering_um2[w] / one.scattering_um2[w], 1, bound);
+      }
+    }
+  }
+}
+
 TEST(MieSizes, MomentsOfTheLogNormalAreThoseOfItsFormula) {
   // Small spheres see the sixth moment, r^6 exp(18 ln^2 sigma) ...
   const double sigma = 1.3, log2 = std::log(sigma) * std::log(sigma);

@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "engine/optics/sun_position.h"
 #include "scene_testing.h"
+#include "server/routes/scene_request.h"
 
 namespace cyanometer {
 namespace {
@@ -272,6 +273,28 @@ TEST(Reading, PanoramasKeepTheirShape) {
   EXPECT_EQ(image("equirectangular", R"("width": 65)"), "/image/width");
   EXPECT_EQ(image("cubemap", R"("width": 10, "height": 60)"), "accepted");
   EXPECT_EQ(image("cubemap", R"("width": 10, "height": 59)"), "/image/height");
+}
+
+TEST(Reading, AJpegHasNoMoreRowsThanItsLibraryMakes) {
+  const auto image = [](const std::string& members) {
+    return refused_at(R"({"image": {"width": 8, )" + members + "}}");
+  };
+  EXPECT_EQ(image(R"("height": 65500, "format": "jpeg")"), "accepted");
+  EXPECT_EQ(image(R"("height": 65501, "format": "jpeg")"), "/image/height");
+  EXPECT_EQ(image(R"("height": 65501, "format": "png")"), "accepted");
+  EXPECT_EQ(refused_at(R"({"camera": {"projection": "cubemap"},
+                           "image": {"width": 16384, "format": "jpeg"}})"),
+            "/image/height");
+}
+
+// As the daemon does for the Accept header.
+TEST(Reading, AFormatThatIsSetBesideTheDocumentHasItsLimitsToo) {
+  const Json document{{"image", {{"width", 8}, {"height", 65501}}}};
+  EXPECT_FALSE(refusal(document));
+  const auto error = refusal(with_usual_format(document, "jpeg"));
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->pointer, "/image/height");
+  EXPECT_EQ(error->allowed, "at most 65500");
 }
 
 TEST(Reading, TheSunIsOutsideTheAir) {

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <future>
+#include <latch>
 #include <numbers>
 
 #include "engine/accuracy/adaptive.h"
@@ -383,8 +385,29 @@ TEST(Maps, AreNotReadOutsideTheirFolder) {
   std::ofstream(elsewhere / "grey.exr", std::ios::binary) << grey_map(0.25);
   fs::create_symlink(elsewhere / "grey.exr", maps.folder / "link.exr");
   fs::create_directory(maps.folder / "folder.exr");
+  // A neighbour whose name begins as the folder's own does.
+  const fs::path beside = maps.folder.path().string() + "-beside.exr";
+  std::ofstream(beside, std::ios::binary) << grey_map(0.25);
+  fs::create_symlink(beside, maps.folder / "beside.exr");
   EXPECT_THAT(refusal_of({"link.exr", "", 8}).what(), HasSubstr("out of the folder"));
+  EXPECT_THAT(refusal_of({"beside.exr", "", 8}).what(), HasSubstr("out of the folder"));
   EXPECT_THAT(refusal_of({"folder.exr", "", 8}).what(), HasSubstr("no such file"));
+  fs::remove(beside);
+}
+
+// As Kubernetes mounts a ConfigMap: grey.exr -> ..data/grey.exr, ..data -> ..2024_05_01.
+TEST(Maps, MayBeLinksWithinTheirFolderToFilesOfAnyName) {
+  Maps maps;
+  fs::create_directory(maps.folder / "..2024_05_01");
+  fs::create_directory_symlink("..2024_05_01", maps.folder / "..data");
+  maps.write("..2024_05_01/grey.exr", grey_map(0.25));
+  maps.write("..2024_05_01/blob", grey_map(0.25));
+  fs::create_symlink("..data/grey.exr", maps.folder / "grey.exr");
+  fs::create_symlink("..data/blob", maps.folder / "blob.exr");
+  fs::create_symlink("..data/grey.exr", maps.folder / "grey.png");
+  EXPECT_THAT(refusal_of({"grey.exr", "", 8}).what(), HasSubstr("accepted"));
+  EXPECT_THAT(refusal_of({"blob.exr", "", 8}).what(), HasSubstr("accepted"));
+  EXPECT_THAT(refusal_of({"grey.png", "", 8}).what(), HasSubstr("PNG cannot be read"));
 }
 
 /// The header of a PNG of so many pixels, and nothing else.
@@ -456,22 +479,81 @@ TEST(SurfaceDocument, SharesTablesWhereOnlyWhatIsSeenOfItDiffers) {
   EXPECT_EQ(atmosphere_key(scene), atmosphere_key(turned));
 }
 
-// A job that reads a map gives way to shorter ones, on the same thread, over the same map.
-TEST(Maps, OneIsReadWhileReadingItGivesWay) {
+// ---- What is kept of maps
+
+const MapSurface grey{"grey.exr", "", 8}, other{"other.exr", "", 8};
+
+/// Other bytes, which are no image, that pass for the same file: who reads them is refused.
+void spoil(const fs::path& file) {
+  const auto time = fs::last_write_time(file);
+  const auto size = fs::file_size(file);
+  std::ofstream(file, std::ios::binary) << std::string(size, 'x');
+  fs::last_write_time(file, time);
+}
+
+TEST(Maps, LargerThanTheRoomForThemAreReadOnceWhileTheyLive) {
+  Maps maps(0);
+  maps.write("grey.exr", grey_map(0.5));
+  maps.write("other.exr", grey_map(0.2));
+  const Problem problem = make_problem(scene_on(grey, 1, 30), {550});
+  surface_images(other);
+  spoil(maps.folder / "grey.exr");
+  EXPECT_EQ(make_problem(scene_on(grey, 1, 30), {550}).ground->images, problem.ground->images);
+}
+
+TEST(Maps, LargerThanTheRoomForThemAreKeptUntilAnotherIsUsed) {
+  Maps maps(0);
+  maps.write("grey.exr", grey_map(0.5));
+  maps.write("other.exr", grey_map(0.2));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(refusal_of(grey).what(), HasSubstr("accepted")) << i;
+    spoil(maps.folder / "grey.exr");
+  }
+  surface_images(other);
+  EXPECT_THAT(refusal_of(grey).what(), HasSubstr("EXR"));
+}
+
+TEST(Maps, AreReadOnceForAllWhoAskAtATime) {
+  Maps maps(0);
+  maps.write("grey.exr", map_file(1024, {"R", "G", "B"}, [](int, int) { return 0.5; }));
+  maps.write("other.exr", grey_map(0.2));
+  std::vector<std::future<std::shared_ptr<const SurfaceImages>>> asked;
+  std::latch all_are_there(4);
+  for (int i = 0; i < 4; ++i) {
+    asked.push_back(std::async(std::launch::async, [&] {
+      all_are_there.arrive_and_wait();
+      auto images = surface_images(grey);
+      surface_images(other);
+      return images;
+    }));
+  }
+  const auto first = asked.front().get();
+  for (std::size_t i = 1; i < asked.size(); ++i) EXPECT_EQ(asked[i].get(), first) << i;
+}
+
+// Others may wait for a map that is being read, so its reader takes up no job that may wait for
+// them.
+TEST(Maps, AreReadWithoutGivingWay) {
   Maps maps;
   maps.write("grey.exr", grey_map(0.5));
   int looks = 0;
-  std::shared_ptr<const SurfaceImages> within;
   Watch watch;
-  watch.gone = [&] {
-    if (++looks == 1) within = surface_images({"grey.exr", "", 8});
-    return false;
-  };
-  {
-    const Attention attention(watch);
-    EXPECT_EQ(surface_images({"grey.exr", "", 8}), within);
-  }
-  EXPECT_GT(looks, 0);
+  watch.gone = [&] { return ++looks > 0; };
+  const Attention attention(watch);
+  EXPECT_NE(surface_images(grey), nullptr);
+  EXPECT_EQ(looks, 0);
+}
+
+TEST(Maps, ThatWereReadAreNotReadAgainForTheKeyOfTheirAtmosphere) {
+  Maps maps(0);
+  maps.write("grey.exr", grey_map(0.5));
+  maps.write("other.exr", grey_map(0.2));
+  const Scene scene = scene_on(grey, 1, 30);
+  const std::string key = atmosphere_key(scene);
+  surface_images(other);
+  spoil(maps.folder / "grey.exr");
+  EXPECT_EQ(atmosphere_key(scene), key);
+  EXPECT_NE(atmosphere_key(scene_on(other, 1, 30)), key);
 }
 
 }  // namespace

@@ -52,7 +52,9 @@ inline Scene without_air(Scene scene) {
 
 /// A folder of maps for as long as it lives.
 struct Maps {
-  Maps() { use_surfaces(folder.path(), std::size_t{64} << 20); }
+  explicit Maps(std::size_t most_bytes = std::size_t{64} << 20) {
+    use_surfaces(folder.path(), most_bytes);
+  }
   ~Maps() { use_surfaces({}, 0); }
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder.path() / name, std::ios::binary) << bytes;
