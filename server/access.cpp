@@ -1,5 +1,7 @@
 #include "server/access.h"
 
+#include <algorithm>
+
 #include "server/http/problem.h"
 
 namespace cyanometer {
@@ -17,9 +19,11 @@ bool equal_in_constant_time(const std::string& given, const std::string& secret)
 void check_token(const Request& request, const Config& config) {
   if (config.token.empty()) return;
   const std::string given = request.header("authorization");
-  constexpr std::string_view scheme = "Bearer ";
-  if (given.starts_with(scheme) &&
-      equal_in_constant_time(given.substr(scheme.size()), config.token)) {
+  constexpr std::string_view scheme = "bearer ";  // in any case (RFC 9110, section 11.1)
+  const bool bearer = std::ranges::equal(
+      std::string_view(given).substr(0, scheme.size()), scheme, {},
+      [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+  if (bearer && equal_in_constant_time(given.substr(scheme.size()), config.token)) {
     return;
   }
   HttpProblem problem(401, given.empty() ? "This server asks for a bearer token."
@@ -39,7 +43,8 @@ Fields cors_fields(const Request& request, const Config& config) {
   if (request.method == "OPTIONS") {
     fields.emplace_back("Access-Control-Allow-Methods", "GET, HEAD, POST, OPTIONS");
     fields.emplace_back("Access-Control-Allow-Headers",
-                        "Authorization, Content-Type, Cyanometer-Deadline, X-Request-Id");
+                        "Authorization, Content-Type, Cyanometer-Atmosphere, "
+                        "Cyanometer-Deadline, If-None-Match, X-Request-Id");
     fields.emplace_back("Access-Control-Max-Age", "600");
   } else {
     fields.emplace_back("Access-Control-Expose-Headers", "*");

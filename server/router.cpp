@@ -90,6 +90,9 @@ Answer Router::answer(const Request& request) const {
   Answer answer;
   try {
     answer = dispatch(request);
+  } catch (const QueueFull&) {
+    ++service_.turned_away;
+    answer = answer_of(current_problem(), request.id);
   } catch (...) {
     answer = answer_of(current_problem(), request.id);
   }

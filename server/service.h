@@ -24,6 +24,7 @@ struct Service {
   Plans plans{queue};
   Frames frames;
   std::atomic<bool> draining{false};
+  std::atomic<std::uint64_t> turned_away{0};  ///< requests that were told of a full queue
   std::function<int()> connections = [] { return 0; };
 
   bool ready() const { return queue.ready() && !draining; }

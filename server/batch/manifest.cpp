@@ -40,7 +40,7 @@ bool is_manifest(const fs::path& path, const std::string& stem) {
 }  // namespace
 
 Manifest::Manifest(const fs::path& stem, const std::string& suffix)
-    : path_(stem.string() + suffix + ".jsonl"), own_(lines_of(path_)) {
+    : path_(stem.string() + suffix + ".jsonl"), lock_(path_), own_(lines_of(path_)) {
   const fs::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {

@@ -1,5 +1,5 @@
 // What is known of the frames in a folder, a line of JSON each. Several processes may work in
-// one folder: each writes a manifest of its own, and reads all.
+// one folder: each writes a manifest of its own, while it alone does, and reads all.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "server/batch/lock_file.h"
+
 namespace cyanometer {
 
 class Manifest {
  public:
   /// @param stem    of the folder's manifests: "out/sky-manifest"
   /// @param suffix  of this one: out/sky-manifest.3-of-16.jsonl
+  /// @throws std::runtime_error where another process writes that one
   Manifest(const std::filesystem::path& stem, const std::string& suffix);
 
   /// True where the file is there as it was written, from what has this key.
@@ -31,6 +34,7 @@ class Manifest {
 
  private:
   std::filesystem::path path_;
+  LockFile lock_;  ///< before anything is read
   std::vector<nlohmann::json> own_;
   std::set<std::string> complete_;  ///< file, key and bytes of all lines
   std::mutex mutex_;

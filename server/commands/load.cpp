@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <random>
 
 #include "server/commands/command.h"
 
@@ -38,6 +39,7 @@ void load(LoadArguments arguments) {
   LoadSettings& settings = arguments.settings;
   if (arguments.rate > 0) settings.rate = arguments.rate;
   settings.vary = !arguments.same;
+  settings.first = std::random_device{}() / 4;  // or a second run would meet the first one's
   if (!arguments.scene.empty()) settings.scene = read_document(arguments.scene);
   if (!settings.scene.is_object()) {
     throw CommandError(exit_refused, arguments.scene + " is no scene");

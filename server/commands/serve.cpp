@@ -60,9 +60,9 @@ void serve(const Config& config) {
   log_line(spdlog::level::info,
            {{"event", "listening"}, {"port", daemon.port()}, {"ops_port", daemon.ops_port()}});
   wait_for_end(daemon, signals);
-  log_event(spdlog::level::info, "stopping");
   const bool failed = daemon.failed();
   let_signals_kill(signals);
+  log_event(spdlog::level::info, "stopping");
   daemon.stop();
   if (failed) throw CommandError(exit_failed, "the daemon cannot go on; its log says why");
 }

@@ -137,6 +137,9 @@ std::optional<Received> Connection::read() {
 }
 
 bool Connection::write(std::string_view bytes) const {
+  // Who drips would hold the answer's memory for as long as it likes.
+  const auto slowest = Clock::now() + limits_.write +
+                       std::chrono::seconds(bytes.size() / limits_.least_bytes_per_s);
   while (!bytes.empty()) {
     const auto sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent > 0) {
@@ -144,8 +147,11 @@ bool Connection::write(std::string_view bytes) const {
     } else if (sent < 0 && errno != EAGAIN && errno != EINTR) {
       return false;
     } else {
+      const auto now = Clock::now();
       std::array<pollfd, 1> one{{{socket_, POLLOUT, 0}}};
-      if (poll_until(one, Clock::now() + limits_.write) <= 0) return false;
+      if (now >= slowest || poll_until(one, std::min(now + limits_.write, slowest)) <= 0) {
+        return false;
+      }
     }
   }
   return true;

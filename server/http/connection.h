@@ -44,6 +44,7 @@ struct ConnectionLimits {
   Duration head = std::chrono::seconds(10);   ///< from a head's first byte to its last
   Duration body = std::chrono::seconds(30);   ///< for a whole body
   Duration write = std::chrono::seconds(20);  ///< without a byte taken by the client
+  std::size_t least_bytes_per_s = 32768;      ///< taken by it, of what is written at once
 };
 
 /// A request as it came in, and whether the connection must end with its answer.
@@ -66,7 +67,7 @@ class Connection {
   /// @throws HttpProblem; the connection must then be closed, its place in the stream is
   /// unknown
   std::optional<Received> read();
-  /// False when the client did not take it all.
+  /// False when the client did not take it all, or took it too slowly.
   bool write(std::string_view bytes) const;
   bool gone() const;
   /// Sends what is written and lets the client read it: closing a socket with unread input

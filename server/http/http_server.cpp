@@ -6,8 +6,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
+#include <new>
 #include <stdexcept>
+#include <thread>
 
 #include "server/http/thread_pool.h"
 
@@ -51,11 +54,12 @@ HttpServer::HttpServer(Options options, Handlers handlers)
       handlers_(std::move(handlers)),
       wake_(eventfd(0, EFD_CLOEXEC)) {
   set_socket_options(set_options);
-  set_tcp_nodelay(true);
-  new_task_queue = [this] { return new ThreadPool(options_.connections, options_.nice); };
 }
 
-HttpServer::~HttpServer() { ::close(wake_); }
+HttpServer::~HttpServer() {
+  ::close(wake_);
+  if (svr_sock_ >= 0) ::close(svr_sock_);
+}
 
 void HttpServer::bind(const std::string& address) {
   const auto [host, port] = split_address(address);
@@ -68,18 +72,34 @@ void HttpServer::bind(const std::string& address) {
   port_ = bound_port(svr_sock_);
 }
 
-bool HttpServer::run() { return listen_after_bind() || stopping_; }
+bool HttpServer::run() {
+  ThreadPool pool(options_.connections, options_.nice);
+  bool listening = true;
+  while (listening && !stopping_) {
+    const int socket = ::accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
+    if (socket >= 0) {
+      pool.enqueue([this, socket] { serve_and_close(socket); });
+    } else if (errno == EINVAL || errno == EBADF || errno == ENOTSOCK) {
+      listening = false;  // stop() makes it EINVAL
+    } else {
+      // A client that has left again, or no descriptor or memory for it now: that passes, and
+      // the library would end here.
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  pool.shutdown();
+  return stopping_;
+}
 
 void HttpServer::stop() {
   if (stopping_.exchange(true)) return;
   eventfd_write(wake_, 1);
-  // The library's own stop() is lost before it listens; a socket that is shut down never
-  // accepts.
+  // A socket that is shut down never accepts.
   const int listener = svr_sock_;
   if (listener >= 0) ::shutdown(listener, SHUT_RDWR);
 }
 
-bool HttpServer::process_and_close_socket(socket_t socket) {
+void HttpServer::serve_and_close(int socket) {
   const int on = 1;
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   Connection connection(socket, wake_, options_.limits);
@@ -89,11 +109,14 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
     refuse(connection, problem);
   } else {
     ++connections_;
-    serve(connection);
+    try {
+      serve(connection);
+    } catch (const std::bad_alloc&) {
+      // There is no memory to read it into, nor to say so: the connection ends.
+    }
     --connections_;
   }
   ::close(socket);
-  return true;
 }
 
 void HttpServer::serve(Connection& connection) {

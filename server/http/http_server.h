@@ -1,5 +1,4 @@
-// The guarded listener: cpp-httplib accepts connections, everything read from them is read
-// here.
+// The guarded listener: cpp-httplib binds, everything after that is done here.
 #pragma once
 
 #include <httplib.h>
@@ -37,7 +36,8 @@ class HttpServer : private httplib::Server {
   /// @throws std::runtime_error
   void bind(const std::string& address);
   int port() const { return port_; }
-  /// Accepts until stop(), then finishes what is in flight. False when accepting failed.
+  /// Accepts until stop(), then finishes what is in flight. False when there is nothing to
+  /// accept from any more.
   bool run();
   /// From any thread, before, during or after run().
   void stop();
@@ -45,7 +45,7 @@ class HttpServer : private httplib::Server {
   int connections() const { return connections_; }
 
  private:
-  bool process_and_close_socket(socket_t socket) override;
+  void serve_and_close(int socket);
   void serve(Connection& connection);
   /// True when one more request may be waited for.
   bool serve_one(Connection& connection, bool last);

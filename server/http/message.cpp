@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <ctime>
 #include <random>
 
 #include "server/http/problem.h"
@@ -244,6 +245,16 @@ namespace {
 
 bool is_bodyless(int status) { return status == 204 || status == 304; }
 
+/// As "Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110, section 5.6.7).
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  const auto size = std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc);
+  return {text.data(), size};
+}
+
 }  // namespace
 
 bool has_body(const Answer& answer, bool head_only) {
@@ -253,7 +264,9 @@ bool has_body(const Answer& answer, bool head_only) {
 std::string serialise_head(const Answer& answer, bool close) {
   std::string out = "HTTP/1.1 " + std::to_string(answer.status) + " ";
   out += status_phrase(answer.status);
-  out += "\r\n";
+  out += "\r\nDate: " + date_now() + "\r\n";
+  // A proxy such as nginx would gather what is to be read while it is made.
+  if (answer.stream) out += "X-Accel-Buffering: no\r\n";
   for (const auto& [name, value] : answer.headers) out += name + ": " + value + "\r\n";
   if (!is_bodyless(answer.status) && answer.length_known && !answer.stream) {
     out += "Content-Length: " + std::to_string(answer.content().size()) + "\r\n";

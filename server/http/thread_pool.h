@@ -1,8 +1,6 @@
 // Threads that wait for clients: cheap, many, started when they are first needed.
 #pragma once
 
-#include <httplib.h>
-
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -15,14 +13,14 @@ namespace cyanometer {
 /// One task, one thread, so that no connection waits behind another that is idle. Beyond
 /// `most_threads` a task runs on the caller with `overloaded()` true: it must refuse and
 /// return.
-class ThreadPool : public httplib::TaskQueue {
+class ThreadPool {
  public:
   /// @param nice  added to the threads' nice values: how far they stand back where processors
   ///              are short
   ThreadPool(std::size_t most_threads, int nice) : most_threads_(most_threads), nice_(nice) {}
-  void enqueue(std::function<void()> task) override;
+  void enqueue(std::function<void()> task);
   /// Returns when every task has ended.
-  void shutdown() override;
+  void shutdown();
 
   static bool overloaded();
 

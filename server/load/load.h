@@ -27,7 +27,7 @@ struct LoadReport {
   std::vector<double> frame_ms;         ///< of answers 200, from when the request was due
   std::vector<double> reject_ms;        ///< of answers 429 and 503, from when it was sent
   std::size_t without_retry_after = 0;  ///< of those
-  std::size_t truncated = 0;            ///< answers 200 that are no whole PNG
+  std::size_t truncated = 0;            ///< answers 200 that are PNGs without an end
   std::size_t late = 0;                 ///< sent over 10 ms after they were due
   double seconds = 0;
   double cpu_s = 0;  ///< of the generator itself

@@ -11,14 +11,14 @@ using Clock = std::chrono::steady_clock;
 }  // namespace
 
 Frames::Got Frames::get(const Order& order, const Watch& watch) {
-  if (auto frame = find(order.tag)) return {frame, Origin::kept};
+  if (auto kept = find(order.tag)) return {kept->frame, Origin::kept, kept->memory};
   const auto landed = flights_.get(order.tag, watch,
                                    [&](const Watch& shared) { return render(order, shared); });
   {
     const std::lock_guard lock(mutex_);
     ++(landed.joined ? counts_.joined : counts_.rendered);
   }
-  if (order.keep && !landed.joined) keep(order.tag, landed.value->frame);
+  if (order.keep && !landed.joined) keep(order.tag, *landed.value);
   return {landed.value->frame, landed.joined ? Origin::joined : Origin::rendered,
           landed.value->memory};
 }
@@ -50,21 +50,27 @@ Frames::Flown Frames::encoded(const Frame& frame, const Scene& scene, const Tick
   return {std::make_shared<const EncodedFrame>(std::move(encoded)), std::move(memory)};
 }
 
-std::shared_ptr<const EncodedFrame> Frames::find(const std::string& tag) {
+std::optional<Frames::Flown> Frames::find(const std::string& tag) {
   const std::lock_guard lock(mutex_);
   const auto place = places_.find(tag);
-  if (place == places_.end()) return nullptr;
+  if (place == places_.end()) return std::nullopt;
   entries_.splice(entries_.begin(), entries_, place->second);
   ++counts_.kept;
-  return place->second->frame;
+  Entry& entry = *place->second;
+  // Kept no longer, it may still be sent for a while: it counts as any other, once. The handle
+  // points at nothing, so whether there is one is a question of who shares it.
+  auto memory = entry.memory.lock();
+  if (memory.use_count() == 0) memory = queue_.hold(entry.frame->bytes.size());
+  entry.memory = memory;
+  return Flown{entry.frame, std::move(memory)};
 }
 
-void Frames::keep(const std::string& tag, const std::shared_ptr<const EncodedFrame>& frame) {
+void Frames::keep(const std::string& tag, const Flown& flown) {
   const auto bytes_of = [](const Entry& entry) {
     constexpr std::size_t places = 256;  // in the list, in the map and on the heap, about
     return entry.frame->bytes.size() + sizeof(EncodedFrame) + 2 * entry.tag.size() + places;
   };
-  Entry entry{tag, frame};
+  Entry entry{tag, flown.frame, flown.memory};
   const std::lock_guard lock(mutex_);
   if (bytes_of(entry) > most_bytes_ || places_.contains(tag)) return;
   counts_.kept_bytes += bytes_of(entry);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -60,10 +61,11 @@ class Frames {
   struct Entry {
     std::string tag;
     std::shared_ptr<const EncodedFrame> frame;
+    std::weak_ptr<void> memory;  ///< of those who are being sent it, all together
   };
-  std::shared_ptr<const EncodedFrame> find(const std::string& tag);
+  std::optional<Flown> find(const std::string& tag);
   Flown render(const Order& order, const Watch& watch);
-  void keep(const std::string& tag, const std::shared_ptr<const EncodedFrame>& frame);
+  void keep(const std::string& tag, const Flown& flown);
 
   RenderQueue& queue_;
   std::size_t most_bytes_;

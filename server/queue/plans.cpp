@@ -5,6 +5,7 @@
 
 #include "engine/planner/nearby.h"
 #include "engine/scene/document.h"
+#include "engine/surface/surface_pass.h"
 
 namespace cyanometer {
 namespace {
@@ -19,8 +20,9 @@ constexpr double planning_ms = 150, verifying_ms = 5000;
 Plans::Planned Plans::get(const Scene& scene, const std::string& client, const Watch& watch) {
   const auto start = std::chrono::steady_clock::now();
   const bool verify = scene.method.verify;
+  const Scene alike = verify ? scene : nearby(scene);
   const std::string key =
-      queue_.device().name + canonical(verify ? scene : nearby(scene)).dump();
+      queue_.device().name + canonical(alike).dump() + ground_revision(alike);
   {
     const std::lock_guard lock(mutex_);
     const auto found = known_.find(key);

@@ -1,7 +1,7 @@
 // Plans, one for all scenes that are nearly alike, as the engine makes them. A plan is a
-// function of scene, version and device, so it is asked for once: a link that is still fresh is
-// answered 304 without waiting behind a long render, and how long a frame takes is known before
-// it waits.
+// function of scene, the files of its maps, version and device, so it is asked for once: a link
+// that is still fresh is answered 304 without waiting behind a long render, and how long a
+// frame takes is known before it waits.
 #pragma once
 
 #include <mutex>
@@ -23,7 +23,7 @@ class Plans {
     std::optional<Place> place = {};  ///< in the queue, where it was waited for there
     bool lasting = true;  ///< false where the device was not ready: its profile may change
   };
-  /// @throws as RenderQueue::run
+  /// @throws as RenderQueue::run, and as ground_revision
   Planned get(const Scene& scene, const std::string& client, const Watch& watch);
 
  private:

@@ -107,10 +107,7 @@ std::optional<QueueFull::Whose> RenderQueue::full(const std::string& client) con
 }
 
 void RenderQueue::admit(const std::string& client) {
-  const auto whose = full(client);
-  if (!whose) return;
-  ++counts_.rejected;
-  throw QueueFull(*whose, retry_after_s());
+  if (const auto whose = full(client)) throw QueueFull(*whose, retry_after_s());
 }
 
 bool RenderQueue::full_for(const std::string& client) const {
@@ -252,8 +249,15 @@ std::shared_ptr<RenderQueue::Entry> RenderQueue::next() {
   const auto entry = next_that_fits()->second;
   turn_ = std::max(turn_, entry->place.first);
   start(*entry);
-  if (waiting_.empty()) last_turn_.clear();
+  forget_turns();
   return entry;
+}
+
+/// Those that are past say nothing any more; under load the queue may never be empty.
+void RenderQueue::forget_turns() {
+  if (waiting_.empty()) last_turn_.clear();
+  if (last_turn_.size() <= 2 * options_.capacity) return;
+  std::erase_if(last_turn_, [&](const auto& each) { return each.second <= turn_; });
 }
 
 std::shared_ptr<RenderQueue::Entry> RenderQueue::much_shorter_than(const Entry& running) {

@@ -62,7 +62,7 @@ class RenderQueue {
   };
   /// Counted since the start.
   struct Counts {
-    std::uint64_t done = 0, rejected = 0, client_gone = 0, past_deadline = 0, device_lost = 0,
+    std::uint64_t done = 0, client_gone = 0, past_deadline = 0, device_lost = 0,
                   out_of_memory = 0, gave_way = 0;
     std::uint64_t& of(Cancelled::Reason reason) {
       return reason == Cancelled::Reason::deadline ? past_deadline : client_gone;
@@ -128,6 +128,7 @@ class RenderQueue {
   std::shared_ptr<void> count_alive(std::size_t bytes);
   void put(const std::shared_ptr<Entry>& entry);
   void remove(const Entry& entry);
+  void forget_turns();
   void start(Entry& entry);
   void perform(const std::shared_ptr<Entry>& entry);
   void attempt(Entry& entry);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/engine.h"
+#include "server/queue/render_queue.h"
 
 namespace cyanometer {
 
@@ -22,8 +22,8 @@ class SingleFlight {
   };
 
   /// What `make` returns, or throws, for the key. It is given a watch that is gone when all who
-  /// wait are; who leaves earlier frees nobody else's work. The deadline is the first one's:
-  /// others that have more time begin again.
+  /// wait are; who leaves earlier frees nobody else's work. The deadline and the share of the
+  /// queue are the first one's: others, who may have more of them, begin again.
   /// @throws Cancelled by `watch`, and what `make` throws
   Landed get(const std::string& key, const Watch& watch,
              const std::function<Value(const Watch&)>& make) {
@@ -107,8 +107,10 @@ class SingleFlight {
       std::rethrow_exception(flight.error);
     } catch (const Cancelled&) {
       watch.check();
-      return nullptr;
+    } catch (const QueueFull&) {
+      watch.check();
     }
+    return nullptr;
   }
 
   std::mutex mutex_;

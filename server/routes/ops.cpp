@@ -36,8 +36,8 @@ std::string metrics_of(Service& service) {
   out += value("cyanometer_device_busy", "gauge", "1 while a job is on the device.",
                service.queue.busy() ? 1 : 0);
   out += value("cyanometer_jobs_total", "counter", "Jobs done on the device.", counts.done);
-  out += value("cyanometer_rejected_total", "counter", "Jobs refused by a full queue.",
-               counts.rejected);
+  out += value("cyanometer_rejected_total", "counter", "Requests refused by a full queue.",
+               service.turned_away.load());
   out += value("cyanometer_cancelled_total", "counter", "Jobs whose client left.",
                counts.client_gone);
   out += value("cyanometer_expired_total", "counter", "Jobs past their deadline.",

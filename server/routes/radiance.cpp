@@ -14,19 +14,34 @@ namespace {
 
 using nlohmann::json;
 
+/// What the answer takes while it is made, about: each number as such, as JSON and as text.
+std::size_t answer_bytes(const RadianceRequest& asked) {
+  constexpr std::size_t bytes_of_number = 128;
+  constexpr std::size_t most_of_auto = 32;  // wavelengths
+  const std::size_t given = asked.scene.spectrum.wavelengths_nm.size();
+  const std::size_t spectra = 3 * (given > 0 ? given : most_of_auto), colours = 4;
+  return asked.directions.size() * (spectra + colours) * bytes_of_number;
+}
+
 Answer radiance(const Request& request, Service& service) {
   const Watch watch = service.watch(request);
   service.admission.check(request);
   const auto asked = read_radiance_request(body_document(request));
   Radiances radiances;
+  Ticket ticket;
   within("/scene", [&] {
     check_scene(asked.scene, service.config);
-    service.queue.run(
-        {.client = request.peer, .watch = watch, .work = [&](Engine& engine, const Watch& w) {
-           radiances = engine.radiance(asked.scene, asked.directions, asked.irradiance, w);
-         }});
+    ticket = service.queue.run({.client = request.peer,
+                                .frame_bytes = answer_bytes(asked),
+                                .watch = watch,
+                                .work = [&](Engine& engine, const Watch& w) {
+                                  radiances = engine.radiance(asked.scene, asked.directions,
+                                                              asked.irradiance, w);
+                                }});
   });
-  return json_answer(radiance_document(asked.scene, radiances));
+  Answer answer = json_answer(radiance_document(asked.scene, radiances));
+  answer.held = service.queue.hold(answer.body.size());
+  return answer;
 }
 
 json radiance_operation() {

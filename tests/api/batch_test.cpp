@@ -163,6 +163,20 @@ TEST(Batch, ShardsAreTheWholeOnceAndOnlyOnce) {
   EXPECT_THAT(bench.run(), ::testing::HasSubstr("0 rendered, 7 were there"));
 }
 
+TEST(Batch, TwoRunsDoNotWriteOneManifest) {
+  const Bench bench(tiny_scene(), sunset(2));
+  fs::create_directories(bench.folder / "out");
+  {
+    const Manifest other(bench.file("sky-manifest"), "");
+    EXPECT_THAT(bench.run({}, 1), ::testing::HasSubstr("another run is writing"));
+    EXPECT_TRUE(bench.manifest().empty());
+    bench.run({"--shard", "0/2"});  // which has its own
+    EXPECT_EQ(bench.manifest("sky-manifest.0-of-2.jsonl").size(), 1u);
+  }
+  EXPECT_THAT(bench.run(), ::testing::HasSubstr("1 rendered, 1 were there"));
+  EXPECT_EQ(bench.names().size(), 4u) << "frames and manifests, no lock";
+}
+
 TEST(Interrupted, ABatchEndsAndGoesOnLater) {
   json scene = tiny_scene();
   scene["image"] = {{"width", 160}, {"height", 90}};

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <thread>
+#include <utility>
 
 namespace cyanometer::testing {
 
@@ -43,6 +44,17 @@ void wait_until_ready(Daemon& daemon) {
   ASSERT_TRUE(daemon.service().ready());
 }
 
+void wait_until_still(const RenderQueue& queue, std::uint64_t done_before) {
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  std::uint64_t done = done_before;
+  for (int still = 0; still < 10; ++still) {
+    std::this_thread::sleep_for(100ms);
+    const auto now = queue.counts().done;
+    if (now != std::exchange(done, now) || now == done_before) still = 0;
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+  }
+}
+
 httplib::Client client_of(const Daemon& daemon) {
   httplib::Client client("127.0.0.1", daemon.port());
   client.set_keep_alive(true);
@@ -65,6 +77,10 @@ nlohmann::json long_scene() {
   return {{"method", {{"name", "nishita"}, {"view_samples", 1000}, {"light_samples", 500}}},
           {"image", {{"width", 512}, {"height", 512}}}};
 }
+
+const std::string large_link =
+    "image.width=512&image.height=512&image.format=npy&method.name=raymarch&method.view_nodes="
+    "1";
 
 RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   sockaddr_in address{};

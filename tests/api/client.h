@@ -19,6 +19,8 @@ Daemon& shared_daemon();
 Config free_port();
 /// Waits until the engine is there. Fails the test after a minute.
 void wait_until_ready(Daemon& daemon);
+/// Waits until jobs have been done since then, and for a second no more.
+void wait_until_still(const RenderQueue& queue, std::uint64_t done_before);
 
 httplib::Client client_of(const Daemon& daemon);
 httplib::Client client();  ///< of the shared daemon
@@ -30,6 +32,8 @@ nlohmann::json small_scene();
 nlohmann::json tiny_scene();
 /// A scene that takes minutes.
 nlohmann::json long_scene();
+/// A link's scene of 3 MB, soon made: few of them fill the buffers between here and there.
+extern const std::string large_link;
 
 /// A connection on which any bytes can be sent.
 class RawClient {

@@ -1,7 +1,9 @@
 // The program as its users run it.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -278,6 +280,25 @@ TEST(Command, DevicesMarksTheOneThatWouldBeUsed) {
   EXPECT_EQ(none.wait(), 1);
 }
 
+TEST(Command, LoadAsksForFramesThatNoOtherRunLeftAndOfAnyFormat) {
+  TemporaryFolder folder;
+  json scene = tiny_scene();
+  scene["image"]["format"] = "jpeg";
+  std::ofstream(folder / "scene.json") << scene.dump();
+  const auto kept = [] { return shared_daemon().service().frames.counts().kept; };
+  const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
+  const auto before = kept();
+  for (int i = 0; i < 2; ++i) {
+    Program run({"load", url, "--clients", "1", "--seconds", "0.5", "--scene",
+                 folder / "scene.json", "--json"});
+    ASSERT_EQ(run.wait(), 0) << run.err();
+    const json report = json::parse(run.out());
+    EXPECT_GE(report.at("statuses").value("200", 0), 1) << report;
+    EXPECT_EQ(report.at("truncated"), 0);
+  }
+  EXPECT_EQ(kept(), before);
+}
+
 TEST(Command, HealthProbesADaemon) {
   const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
   Program well({"health", url});
@@ -348,14 +369,14 @@ TEST(Serve, ADriverThatDoesNotStartIsAFailure) {
   EXPECT_THAT(run.err(), ::testing::HasSubstr("no device to work on"));
 }
 
-/// A log on a full disk is lost; the daemon is not.
-TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
+/// Of a daemon that logs to such a file.
+void expect_answers_and_an_end(const std::string& log) {
   int port = 0;
   {
     Daemon free(free_port());
     port = free.port();
   }
-  Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(port)}, "", "/dev/full");
+  Program run({"serve", "--listen", "127.0.0.1:" + std::to_string(port)}, "", log);
   httplib::Client daemon("127.0.0.1", port);
   daemon.set_read_timeout(300);
   httplib::Result answer = daemon.Get("/healthz");
@@ -364,9 +385,40 @@ TEST(Serve, ALogThatCannotBeWrittenHindersNobody) {
     answer = daemon.Get("/healthz");
   }
   ASSERT_TRUE(answer);
-  EXPECT_EQ(daemon.Post("/v1/render", tiny_scene().dump(), "application/json")->status, 200);
+  answer = daemon.Post("/v1/render", tiny_scene().dump(), "application/json");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
   run.signal(SIGTERM);
   EXPECT_EQ(run.wait(), 0);
+}
+
+/// A log on a full disk is lost; the daemon is not.
+TEST(Serve, ALogThatCannotBeWrittenHindersNobody) { expect_answers_and_an_end("/dev/full"); }
+
+TEST(Serve, ALogThatNobodyReadsHindersNobody) {
+  TemporaryFolder folder;
+  const std::string pipe = folder / "log";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int held = open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  const std::string page(4096, 'x');
+  while (write(held, page.data(), page.size()) > 0) continue;
+  expect_answers_and_an_end(pipe);
+  close(held);
+}
+
+TEST(Serve, LongPathsAreCutInTheLog) {
+  Program run({"serve", "--listen", "127.0.0.1:0"});
+  httplib::Client daemon("127.0.0.1", run.port());
+  std::string path = "/";
+  for (int i = 0; i < 2000; ++i) path += "%01";
+  EXPECT_EQ(daemon.Get(path)->status, 404);
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.wait(), 0);
+  std::istringstream lines(run.err());
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LT(line.size(), 4096u) << "more than a pipe takes at once";
+    EXPECT_TRUE(json::accept(line)) << line;
+  }
 }
 
 TEST(Serve, SettingsComeFromTheEnvironmentAndAreChecked) {

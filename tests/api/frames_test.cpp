@@ -9,7 +9,9 @@
 #include <latch>
 #include <set>
 
+#include "engine/scene/document.h"
 #include "engine/surface/maps.h"
+#include "server/queue/plans.h"
 #include "server/queue/single_flight.h"
 #include "tests/accuracy/temporary_folder.h"
 #include "tests/api/client.h"
@@ -116,6 +118,25 @@ TEST(SingleFlight, WhoHasMoreTimeThanTheFirstBeginsAgain) {
   EXPECT_EQ(*second.get().value, 2);
 }
 
+TEST(SingleFlight, WhoseOwnShareIsNotUsedUpBeginsAgain) {
+  Flights flights;
+  std::latch started(1), go(1);
+  std::atomic<int> calls = 0;
+  const auto make = [&](const Watch&) -> int {
+    if (++calls > 1) return 2;
+    started.count_down();
+    go.wait();
+    throw QueueFull(QueueFull::Whose::client, 1);
+  };
+  auto first = std::async(std::launch::async, [&] { return flights.get("k", {}, make); });
+  started.wait();
+  auto second = std::async(std::launch::async, [&] { return flights.get("k", {}, make); });
+  EXPECT_EQ(second.wait_for(100ms), std::future_status::timeout);
+  go.count_down();
+  EXPECT_THROW(first.get(), QueueFull);
+  EXPECT_EQ(*second.get().value, 2);
+}
+
 TEST(Frames, EqualRequestsInFlightAreRenderedOnce) {
   auto& daemon = shared_daemon();
   const auto before = daemon.service().frames.counts();
@@ -192,6 +213,33 @@ TEST(Frames, KeptOnesStayWithinTheirMemory) {
   const auto oldest =
       client_of(daemon).Post("/v1/render", scene_at(20).dump(), "application/json");
   EXPECT_EQ(oldest->get_header_value("Cache-Status"), "cyanometer; fwd=miss");
+}
+
+TEST(Frames, AKeptOneCountsOnceWhileItIsSent) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  RenderQueue queue({.frame_bytes = most, .warm = false});
+  Frames frames(queue, most);
+  const Scene scene = read_scene(tiny_scene());
+  const Plan plan = Plans(queue).get(scene, "a", {}).plan;
+  const auto get = [&] {
+    return frames.get({.scene = scene, .plan = plan, .tag = "tag", .client = "a"}, {});
+  };
+  const auto wanting = [&](std::size_t bytes) {
+    return std::async(std::launch::async, [&queue, bytes] {
+      queue.run({.client = "a", .frame_bytes = bytes, .work = [](Engine&, const Watch&) {}});
+    });
+  };
+  get();
+  auto one = get(), other = get();
+  EXPECT_EQ(one.origin, Frames::Origin::kept);
+  auto rest = wanting(most - one.frame->bytes.size());
+  EXPECT_EQ(rest.wait_for(10s), std::future_status::ready);
+  auto all = wanting(most);
+  EXPECT_EQ(all.wait_for(200ms), std::future_status::timeout);
+  one.memory.reset();
+  EXPECT_EQ(all.wait_for(200ms), std::future_status::timeout);
+  other.memory.reset();
+  EXPECT_EQ(all.wait_for(10s), std::future_status::ready);
 }
 
 TEST(Frames, AShortOneDoesNotWaitForALongOne) {
@@ -272,7 +320,9 @@ TEST(Frames, OverAMapAreOthersOnceItsFileIsAnother) {
   ASSERT_EQ(before->status, 200) << before->body;
   EXPECT_EQ(post(scene)->get_header_value("Cache-Status"), "cyanometer; hit");
   paint(-3);
+  const auto done = daemon.service().queue.counts().done;
   const auto after = post(scene);
+  EXPECT_EQ(daemon.service().queue.counts().done, done + 2) << "its plan too";
   EXPECT_EQ(after->get_header_value("Cache-Status"), "cyanometer; fwd=miss");
   EXPECT_NE(after->get_header_value("ETag"), before->get_header_value("ETag"));
   EXPECT_NE(after->body, before->body);

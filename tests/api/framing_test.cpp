@@ -1,6 +1,10 @@
 // What comes over a connection: every way in which a request may be malformed, slow or hostile.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <ctime>
 #include <thread>
 
 #include "tests/api/client.h"
@@ -215,6 +219,22 @@ TEST(Framing, RequestIdsAreEchoedOnlyWhenHarmless) {
   }
 }
 
+TEST(Framing, AnswersSayWhenTheyWereMade) {
+  const std::time_t before = std::time(nullptr);
+  for (const auto& asked : {get_text(closing), std::string("GET /healthz\r\n\r\n")}) {
+    const auto answer = exchange(asked);
+    const auto at = answer.find("\r\nDate: ");
+    ASSERT_NE(at, std::string::npos) << answer;
+    const std::string date = answer.substr(at + 8, answer.find("\r\n", at + 2) - at - 8);
+    EXPECT_THAT(date, ::testing::MatchesRegex(
+                          "[A-Z][a-z][a-z], [0-9][0-9] [A-Z][a-z][a-z] [0-9]+ [0-9:]+ GMT"));
+    std::tm utc{};
+    ASSERT_NE(strptime(date.c_str(), "%a, %d %b %Y %H:%M:%S GMT", &utc), nullptr) << date;
+    EXPECT_GE(timegm(&utc), before);
+    EXPECT_LE(timegm(&utc), std::time(nullptr));
+  }
+}
+
 TEST(Framing, RangesAreIgnored) {
   const auto answer = exchange(get_text("Range: bytes=0-0,1-1\r\n" + closing));
   EXPECT_EQ(status_of(answer), 200);
@@ -247,6 +267,30 @@ TEST(Connections, IdleAndDrippingClientsBlockNobody) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(status_of(exchange(get_text(closing))), 200);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 400ms);
+}
+
+/// Whether so many bytes are, by a reader that takes some of them every 5 ms.
+bool is_taken(std::size_t bytes, std::size_t bytes_at_once) {
+  int pair[2];
+  EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair), 0);
+  std::thread reader([&] {
+    std::string chunk(bytes_at_once, ' ');
+    while (::recv(pair[1], chunk.data(), chunk.size(), 0) > 0) std::this_thread::sleep_for(5ms);
+  });
+  ConnectionLimits limits;
+  limits.write = 1s;
+  limits.least_bytes_per_s = std::size_t{16} << 20;
+  const bool taken = Connection(pair[0], -1, limits).write(std::string(bytes, 'x'));
+  ::shutdown(pair[0], SHUT_WR);
+  reader.join();
+  for (const int each : pair) ::close(each);
+  return taken;
+}
+
+TEST(Connections, WhoDripsIsGivenUpThoughItTakesBytesAllTheTime) {
+  constexpr std::size_t mib = std::size_t{1} << 20;
+  EXPECT_TRUE(is_taken(4 * mib, mib));
+  EXPECT_FALSE(is_taken(4 * mib, mib / 128));
 }
 
 TEST(Connections, OneMoreThanThereAreThreadsIsRefused) {

@@ -284,7 +284,7 @@ TEST(Queue, AFullOneRefusesAndSaysWhenToComeBack) {
   EXPECT_EQ(answer->status, 503);
   EXPECT_GE(std::stoi(answer->get_header_value("Retry-After")), 1);
   EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
-  EXPECT_EQ(queue.counts().rejected, 1u);
+  EXPECT_EQ(daemon.service().turned_away, 1u);
   EXPECT_EQ(client_of(daemon).Get("/healthz")->status, 200);
   hold.let_go();
 }
@@ -325,7 +325,7 @@ TEST(Queue, AFullOneRefusesBeforeItReads) {
     EXPECT_EQ(answer->status, 503) << path;
     EXPECT_TRUE(answer->has_header("Retry-After")) << path;
   }
-  EXPECT_EQ(full.daemon.service().queue.counts().rejected, 8u);
+  EXPECT_EQ(full.daemon.service().turned_away, 8u);
   // What takes no place is answered, and said to be wrong, as ever.
   EXPECT_EQ(client_of(full.daemon).Post("/v1/optics", "no scene", "")->status, 400);
 }
@@ -352,6 +352,53 @@ TEST(Queue, AFullOneAnswersWithAFrameThatWasKept) {
   auto other = small_scene();
   other["image"]["exposure_ev"] = 1;
   EXPECT_EQ(post(other)->status, 503);
+}
+
+TEST(Queue, AStreamThatWaitsForAPlaceIsNotTurnedAway) {
+  Daemon daemon(Full::with_places(2));
+  daemon.start();
+  wait_until_ready(daemon);
+  auto& queue = daemon.service().queue;
+  client_of(daemon).Get("/v1/render?" + large_link + "&sun.elevation_deg=61");
+  const auto before = queue.counts().done;
+  RawClient reader(daemon.port());
+  reader.send("GET /v1/stream?" + large_link +
+              "&frames=12&to.sun.elevation_deg=60 HTTP/1.1\r\nHost: h\r\n\r\n");
+  wait_until_still(queue, before);
+  std::vector<std::future<void>> waiting;
+  Hold hold(queue);
+  for (std::size_t i = 0; i < queue.capacity(); ++i) {
+    waiting.push_back(std::async(std::launch::async, [&queue, i] {
+      queue.run({.client = std::to_string(i), .work = [](Engine&, const Watch&) {}});
+    }));
+  }
+  wait_for_depth(queue, queue.capacity());
+  std::string text = reader.receive(500ms);
+  EXPECT_EQ(count(text, "Cyanometer-Frame: 12/12"), 0u);
+  EXPECT_EQ(daemon.service().turned_away, 0u);
+  hold.let_go();
+  text += reader.receive(30s);
+  EXPECT_EQ(count(text, "Cyanometer-Frame: 12/12"), 1u);
+}
+
+TEST(Queue, NumbersOfManyDirectionsCountAsFramesDo) {
+  Config config = free_port();
+  config.frame_memory_mb = 1;
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  auto being_sent = daemon.service().queue.hold(config.frame_bytes());
+  const nlohmann::json up{{"elevation_deg", 90}, {"azimuth_deg", 0}};
+  const nlohmann::json body{{"scene", tiny_scene()}, {"directions", {up, up}}};
+  const auto ask = [&](const std::string& deadline_s) {
+    return client_of(daemon)
+        .Post("/v1/radiance", {{"Cyanometer-Deadline", deadline_s}}, body.dump(),
+              "application/json")
+        ->status;
+  };
+  EXPECT_EQ(ask("0.3"), 504);
+  being_sent.reset();
+  EXPECT_EQ(ask("300"), 200);
 }
 
 TEST(Queue, BehindAProxyClientsHaveTheirOwnShares) {

@@ -497,6 +497,7 @@ TEST(Explain, LinesTellHowFarItIsUntilTheIngredientsCome) {
   const auto answer = post("/v1/explain", quick_scene(), {{"Accept", "application/x-ndjson"}});
   ASSERT_TRUE(answer);
   ASSERT_EQ(answer->status, 200) << answer->body;
+  EXPECT_EQ(answer->get_header_value("X-Accel-Buffering"), "no");
   std::istringstream lines(answer->body);
   std::vector<json> told;
   for (std::string line; std::getline(lines, line);) told.push_back(json::parse(line));
@@ -510,6 +511,7 @@ TEST(Explain, LinesTellHowFarItIsUntilTheIngredientsCome) {
   EXPECT_GT(told.front().at("progress"), 0);
   const auto whole = post("/v1/explain", quick_scene());
   ASSERT_TRUE(whole);
+  EXPECT_FALSE(whole->has_header("X-Accel-Buffering"));
   EXPECT_EQ(told.back().at("ingredients"), json::parse(whole->body));
 }
 
@@ -540,6 +542,7 @@ TEST(Attribute, SaysOfTheSceneSMethodWhereItsErrorComesFrom) {
   EXPECT_THAT(share.at("how").get<std::string>(), ::testing::HasSubstr("view_samples 8 to 32"));
   const auto lines = post("/v1/attribute", scene, {{"Accept", "application/x-ndjson"}});
   ASSERT_TRUE(lines);
+  EXPECT_EQ(lines->get_header_value("X-Accel-Buffering"), "no");
   const std::string last =
       lines->body.substr(lines->body.rfind('\n', lines->body.size() - 2) + 1);
   EXPECT_EQ(json::parse(last).at("attribution"), found);
@@ -623,7 +626,7 @@ TEST(Day, TheBodyIsReadStrictly) {
 const json single_order{{"method", {{"scattering_orders", 1}}}};
 
 TEST(Chart, PointsComeLineByLineUntilTheReaderLeaves) {
-  std::string text;
+  std::string text, buffering;
   std::size_t lines = 0;
   const auto answer = [&] {
     auto to = client();
@@ -631,6 +634,10 @@ TEST(Chart, PointsComeLineByLineUntilTheReaderLeaves) {
     request.method = "POST";
     request.path = "/v1/chart";
     request.body = single_order.dump();
+    request.response_handler = [&](const httplib::Response& head) {
+      buffering = head.get_header_value("X-Accel-Buffering");
+      return true;
+    };
     request.content_receiver = [&](const char* data, std::size_t length, auto, auto) {
       text.append(data, length);
       lines = count(text, "\n");
@@ -639,6 +646,7 @@ TEST(Chart, PointsComeLineByLineUntilTheReaderLeaves) {
     return to.send(request);
   }();
   ASSERT_GE(lines, 4u) << text;
+  EXPECT_EQ(buffering, "no");
   std::istringstream stream(text);
   std::string line;
   std::getline(stream, line);
