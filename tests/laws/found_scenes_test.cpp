@@ -144,8 +144,7 @@ TEST(FoundScenes, CloudsAreSeenToWhereTheirLightComesFrom) {
         {"profile", {{"type", "tent"}, {"centre_km", 3}, {"half_width_km", 1}}},
         {"phase", {{"type", "henyey_greenstein"}, {"g", 0.8}}}};
     Trial asked = trial("raymarch");
-    EXPECT_LT(asked.error(scene, fan({-90, -30, -8}, {0, 90, 180}))->value, 3e-3)
-        << depth;
+    EXPECT_LT(asked.error(scene, fan({-90, -30, -8}, {0, 90, 180}))->value, 3e-3) << depth;
   }
 }
 
