@@ -1,10 +1,12 @@
 #include "engine/accuracy/chart.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
+#include "engine/accuracy/finest.h"
 #include "engine/scene/document.h"
 
 namespace cyanometer {
@@ -93,6 +95,22 @@ ChartPoint point_from(const json& document) {
   return point;
 }
 
+std::string quoted(std::string text) {
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) {
+    text.insert(at, 1, '"');
+  }
+  return "\"" + text + "\"";
+}
+
+/// In the order of the table's columns; of a point that failed none of them says anything.
+std::array<double, 11> figures_of(const ChartPoint& point) {
+  const EstimatedError& error = point.error;
+  const ErrorMeasure& m = error.measure;
+  return {m.error,         error.low,      error.high,       m.bias,           m.p99,
+          m.max,           point.frame_ms, point.fastest_ms, point.slowest_ms, point.tables_ms,
+          point.tables_mib};
+}
+
 }  // namespace
 
 json point_document(const ChartPoint& point) {
@@ -121,12 +139,15 @@ ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& re
                          const ChartSettings& settings, const Watch& watch) {
   const Plan plan = plan_for(scene, method, options);
   const double made_ms = engine.tables().making_ms;
+  const RayColours colours(scene, plan.wavelengths_nm);
   ChartPoint point;
   point.method = method;
   point.options = options;
   try {
     auto values = engine.radiance(scene, reference.directions, false, plan, watch).relative;
-    point.error = measure_error(values, reference.halves[0], reference.halves[1]);
+    point.error = measure_error(colours.error_channels(values),
+                                colours.error_channels(reference.halves[0]),
+                                colours.error_channels(reference.halves[1]));
     measure_time(engine, scene, plan, settings, made_ms, watch, point);
   } catch (const OverLimit& limit) {
     point.failure = limit.what();
@@ -171,6 +192,10 @@ std::vector<std::map<std::string, double>> chart_settings(const MethodDescriptio
 void measure_points(Engine& engine, const ChartSettings& settings, const Watch& watch,
                     const std::function<void(const ChartPoint&)>& done, ChartScene& chart) {
   Scene scene = read_scene(chart.document);
+  if (json goal = goal_document(settings.reference); chart.goal != goal) {
+    chart.points.clear();
+    chart.goal = std::move(goal);
+  }
   std::optional<Reference> reference;
   for (const MethodDescription& method : methods()) {
     if (!settings.methods.empty() &&
@@ -198,18 +223,41 @@ void measure_points(Engine& engine, const ChartSettings& settings, const Watch& 
   }
 }
 
-std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double frames) {
+double told_error(const ChartScene& scene, const ChartPoint& point) {
+  const double error = point.error.measure.error;
+  return std::max(error > 0 ? error : point.error.high, scene.noise);
+}
+
+std::vector<std::size_t> pareto_front(const ChartScene& scene, double frames) {
+  const std::vector<ChartPoint>& points = scene.points;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].failure.empty()) order.push_back(i);
   }
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return points[i].cost_ms(frames); });
+  auto error = [&](std::size_t i) { return told_error(scene, points[i]); };
   std::vector<std::size_t> front;
   for (std::size_t i : order) {
-    double error = points[i].error.measure.error;
-    if (front.empty() || error < points[front.back()].error.measure.error) front.push_back(i);
+    if (front.empty() || error(i) < error(front.back())) front.push_back(i);
   }
   return front;
+}
+
+void take_over(const Chart& before, Chart& chart) {
+  if (before.device != chart.device || before.version != chart.version) return;
+  std::vector<ChartScene> others;
+  for (const ChartScene& old : before.scenes) {
+    bool asked = false;
+    for (ChartScene& scene : chart.scenes) {
+      asked |= scene.name == old.name;
+      if (scene.document != old.document) continue;
+      const std::string name = scene.name;
+      scene = old;
+      scene.name = name;
+    }
+    if (!asked) others.push_back(old);
+  }
+  chart.scenes.insert(chart.scenes.begin(), others.begin(), others.end());
 }
 
 json chart_document(const Chart& chart) {
@@ -221,6 +269,7 @@ json chart_document(const Chart& chart) {
                       {"scene", scene.document},
                       {"reference_walks", scene.walks},
                       {"reference_noise", scene.noise},
+                      {"reference_goal", scene.goal},
                       {"points", points}});
   }
   return {{"device", chart.device}, {"version", chart.version}, {"scenes", scenes}};
@@ -233,7 +282,8 @@ Chart chart_from(const json& document) {
                      each.at("scene"),
                      each.at("reference_walks"),
                      each.at("reference_noise"),
-                     {}};
+                     {},
+                     each.value("reference_goal", json())};
     for (const json& point : each.at("points")) scene.points.push_back(point_from(point));
     chart.scenes.push_back(std::move(scene));
   }
@@ -244,21 +294,15 @@ std::string chart_csv(const Chart& chart) {
   std::ostringstream csv;
   csv << "scene,method,options,error,error_low,error_high,bias,p99,max,frame_ms,fastest_ms,"
          "slowest_ms,tables_ms,tables_mib,reference_noise,failure\n";
-  auto quoted = [](std::string text) {
-    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) {
-      text.insert(at, 1, '"');
-    }
-    return "\"" + text + "\"";
-  };
   for (const ChartScene& scene : chart.scenes) {
     for (const ChartPoint& point : scene.points) {
-      const ErrorMeasure& m = point.error.measure;
       csv << quoted(scene.name) << "," << point.method << ","
-          << quoted(json(point.options).dump()) << "," << m.error << "," << point.error.low
-          << "," << point.error.high << "," << m.bias << "," << m.p99 << "," << m.max << ","
-          << point.frame_ms << "," << point.fastest_ms << "," << point.slowest_ms << ","
-          << point.tables_ms << "," << point.tables_mib << "," << scene.noise << ","
-          << quoted(point.failure) << "\n";
+          << quoted(json(point.options).dump()) << ",";
+      for (double figure : figures_of(point)) {
+        if (point.failure.empty()) csv << figure;
+        csv << ",";
+      }
+      csv << scene.noise << "," << quoted(point.failure) << "\n";
     }
   }
   return csv.str();

@@ -34,6 +34,7 @@ struct ChartScene {
   std::int64_t walks = 0;   ///< of each half of the reference
   double noise = 0;         ///< of the reference
   std::vector<ChartPoint> points;
+  nlohmann::json goal = {};  ///< of the reference that the points are held against
 };
 
 struct Chart {
@@ -64,21 +65,30 @@ std::map<std::string, double> defaults_of(const MethodDescription& method);
 /// The settings at which a method is charted, roughly cheapest first.
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method);
 
-/// One point. @param scene as it is charted, and as it was for the reference
+/// One point, its error in the contract's channels. @param scene as it is charted, and as it
+/// was for the reference
 /// @throws Cancelled, DeviceLost
 ChartPoint measure_point(Engine& engine, const Scene& scene, const Reference& reference,
                          const std::string& method,
                          const std::map<std::string, double>& options,
                          const ChartSettings& settings, const Watch& watch);
 
-/// Adds the points that `scene` lacks, and calls `done` after each. @param scene has its
-/// document
+/// Adds the points that `scene` lacks, and calls `done` after each; those that were measured
+/// towards another goal go. @param scene has its document
 void measure_points(Engine& engine, const ChartSettings& settings, const Watch& watch,
                     const std::function<void(const ChartPoint&)>& done, ChartScene& scene);
 
+/// The error that a point is ranked and drawn by. Below the reference's noise nobody can tell
+/// one from another, and none at all is chance: then the upper end of what it may be counts.
+double told_error(const ChartScene& scene, const ChartPoint& point);
+
 /// The points that no other beats both in error and in cost at so many frames an atmosphere,
-/// fastest first; places in `points`.
-std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double frames);
+/// fastest first; places in `scene.points`.
+std::vector<std::size_t> pareto_front(const ChartScene& scene, double frames);
+
+/// Takes over what an earlier chart of the same version and device has: the points of the same
+/// scenes, and the scenes that have none of the names in `chart`, which come first.
+void take_over(const Chart& before, Chart& chart);
 
 nlohmann::json point_document(const ChartPoint& point);
 nlohmann::json chart_document(const Chart& chart);

@@ -22,10 +22,9 @@ constexpr std::array<Fronts, 3> fronts{{{1, "one", "1 frame an atmosphere"},
                                         {10, "ten", "10 frames"},
                                         {1e9, "many", "many frames"}}};
 
-/// The value that a point is drawn at: where its error is below what the reference can tell,
-/// the upper end of what it may be.
-double drawn_error(const ChartPoint& point) {
-  return std::max(point.error.measure.error, 1e-6);
+/// What a logarithmic axis can show of it.
+double drawn_error(const ChartScene& scene, const ChartPoint& point) {
+  return std::max(told_error(scene, point), 1e-6);
 }
 
 /// All scenes share their axes, so that panels can be compared.
@@ -36,8 +35,8 @@ std::pair<LogAxis, LogAxis> axes_of(const Chart& chart) {
       if (!point.failure.empty()) continue;
       least_ms = std::min(least_ms, point.fastest_ms);
       most_ms = std::max({most_ms, point.slowest_ms, point.cost_ms(1)});
-      least_error = std::min(least_error, drawn_error(point));
-      most_error = std::max(most_error, drawn_error(point));
+      least_error = std::min(least_error, drawn_error(scene, point));
+      most_error = std::max(most_error, drawn_error(scene, point));
     }
   }
   if (most_ms == 0) least_ms = least_error = 1e-3, most_ms = most_error = 1;
@@ -103,7 +102,7 @@ class Drawing {
     svg_.text(left + 34, 120, "the first frame, with its tables");
     svg_.out() << "<rect class=\"noise\" x=\"" << left + 260
                << "\" y=\"109\" width=\"22\" height=\"13\"/>\n";
-    svg_.text(left + 290, 120, "below the noise of the reference");
+    svg_.text(left + 290, 120, "noise of the reference: what is below it is drawn at its edge");
   }
 
   void grid() {
@@ -128,16 +127,16 @@ class Drawing {
     grid();
     for (const Fronts& front : fronts) this->front(scene, front);
     for (const ChartPoint& each : scene.points) {
-      if (each.failure.empty()) point(each);
+      if (each.failure.empty()) point(scene, each);
     }
   }
 
   /// As steps: up to the next point nothing better is to be had.
   void front(const ChartScene& scene, const Fronts& front) {
     std::ostringstream path;
-    for (std::size_t i : pareto_front(scene.points, front.frames)) {
+    for (std::size_t i : pareto_front(scene, front.frames)) {
       const ChartPoint& point = scene.points[i];
-      double x = x_(point.cost_ms(front.frames)), y = y_(drawn_error(point));
+      double x = x_(point.cost_ms(front.frames)), y = y_(drawn_error(scene, point));
       if (path.tellp() == 0) {
         path << "M" << x << " " << y;
       } else {
@@ -148,8 +147,9 @@ class Drawing {
     svg_.out() << "<path class=\"front " << front.style << "\" d=\"" << path.str() << "\"/>\n";
   }
 
-  void point(const ChartPoint& point) {
-    double x = x_(point.frame_ms), y = y_(drawn_error(point)), first = x_(point.cost_ms(1));
+  void point(const ChartScene& scene, const ChartPoint& point) {
+    double x = x_(point.frame_ms), y = y_(drawn_error(scene, point)),
+           first = x_(point.cost_ms(1));
     svg_.out() << "<g class=\"" << point.method << "\"><title>" << escaped(in_words(point))
                << "</title>\n";
     svg_.line(x, y_(std::max(point.error.low, 1e-6)), x, y_(std::max(point.error.high, 1e-6)),

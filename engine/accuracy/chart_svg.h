@@ -11,8 +11,8 @@ namespace cyanometer {
 /// the time of a frame, both logarithmic. A point is a setting of a method, with the error's 95
 /// % interval and the spread of its times; where tables were made, a thin line leads to the
 /// cost of the first frame. The Pareto fronts are those of 1, 10 and many frames an atmosphere;
-/// what lies in the shaded band is below the reference's own noise. Pointing at a point tells
-/// its settings.
+/// what lies at the edge of the shaded band is below the reference's own noise. Pointing at a
+/// point tells its settings.
 std::string chart_svg(const Chart& chart);
 
 }  // namespace cyanometer

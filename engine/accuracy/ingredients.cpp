@@ -77,6 +77,21 @@ Scaled flat(const Scene& scene) {
   return result;
 }
 
+/// The ground black. Of a world with heights these stay, under ice, for a sea would mirror; a
+/// map's go with its colours.
+Scene over_black(const Scene& scene) {
+  Scene result = scene;
+  auto* world = std::get_if<ProceduralSurface>(&result.planet.surface);
+  if (world && world->relief_km > 0) {
+    world->ice_latitude_deg = 0;
+    world->ice = 0.0;
+  } else {
+    result.planet.surface = UniformSurface();
+    result.planet.ground_albedo = 0.0;
+  }
+  return result;
+}
+
 /// What the rays show, at some wavelengths.
 struct Light {
   std::vector<double> wavelengths_nm;
@@ -117,12 +132,7 @@ class Explainer {
     constituents();
     orders();
     add_without("curvature", flat(whole_));
-    Scene black = whole_;
-    black.planet.ground_albedo = 0.0;
-    if (auto* surface = std::get_if<ProceduralSurface>(&black.planet.surface)) {
-      surface->sea = surface->plants = surface->sand = surface->rock = surface->ice = 0.0;
-    }
-    add_without("ground", {black});
+    add_without("ground", {over_black(whole_)});
     if (whole_.spectrum.colour == Colour::cie) {
       open_wavelengths() ? numbers_of_wavelengths() : given_wavelengths();
     }

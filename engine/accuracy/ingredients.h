@@ -25,7 +25,7 @@ struct Worth {
 /// - "order_2", "order_3", ...: one order less against so many, up to the first that is worth
 ///   less than 0.1 %, and to 6;
 /// - "curvature": the air lies flat, its altitudes kept;
-/// - "ground": it reflects nothing;
+/// - "ground": it neither reflects nor mirrors; a map's heights go with it;
 /// - "wavelength_4", ...: colour from one wavelength less against from so many, up to as many
 /// as
 ///   `auto` takes; of given wavelengths that become a colour, the one at that place, from 1, is

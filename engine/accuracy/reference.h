@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "engine/engine.h"
@@ -17,7 +18,9 @@ struct Reference {
   /// nothing in common.
   std::array<std::vector<std::vector<double>>, 2> halves;
   std::int64_t walks = 0;  ///< along each direction, in each half
-  double noise = 0;        ///< the error of the halves' mean, in the contract's measure
+  /// The error of the halves' mean, in the contract's measure: of X, Y, Z where the scene's
+  /// wavelengths become a colour.
+  double noise = 0;
 };
 
 /// When a reference is good enough.
@@ -26,10 +29,13 @@ struct ReferenceGoal {
   double noise = 0.003;
   std::int64_t most_walks = 16384;  ///< along a ray in each half, however noisy that leaves it
 };
+/// What was measured towards another goal is another measurement.
+nlohmann::json goal_document(const ReferenceGoal& goal);
 
 /// The reference on `goal.rays` stratified rays of the scene. Walks are added to what `folder`
 /// keeps of the same scene and version, and kept again after every pass, so that work that
-/// was cancelled goes on. A reference of one order or none has no noise and one pass.
+/// was cancelled goes on. A reference of one order or none has no noise and one pass. Its
+/// random numbers are none that `path` can be asked for.
 /// @param folder  empty: nothing is kept
 /// @param scene has its wavelengths given; its method and its display do not matter
 /// @throws OverLimit, Cancelled, DeviceLost

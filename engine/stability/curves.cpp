@@ -10,10 +10,8 @@ namespace {
 using nlohmann::json;
 
 /// Rays of a whole sky, and of the ground below where the camera is high.
-std::optional<Measured> error_of_the_sky(Trial& trial, const json& scene) {
-  auto error = trial.error(scene, fan({2, 8, 20, 45, 80}, {5, 40, 90, 140, 175}));
-  if (!error) return {};
-  return Measured(*error);
+std::vector<Measured> error_of_the_sky(Trial& trial, const json& scene) {
+  return measured(trial.error(scene, fan({2, 8, 20, 45, 80}, {5, 40, 90, 140, 175})));
 }
 
 json at_sun(double elevation_deg) {
@@ -48,13 +46,11 @@ StabilityRow over_altitude() {
                            {0.002, 1, 5, 20, 60, 200, 2000}, [](double x) {
                              return changed(at_sun(20), {{"camera", {{"altitude_km", x}}}});
                            });
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     json whole = changed(scene(x), {{"camera", {{"projection", "equirectangular"}}},
                                     {"image", {{"width", 128}, {"height", 64}}}});
     auto rays = sample_directions(read_scene(whole), x > 1000 ? 1024 : 64);
-    auto error = trial.error(scene(x), rays);
-    if (!error) return {};
-    return Measured(*error);
+    return measured(trial.error(scene(x), rays));
   };
   return row;
 }
@@ -74,10 +70,8 @@ StabilityRow over_phase() {
                                      {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
                                      {"image", {{"width", 160}, {"height", 160}}}};
                            });
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
-    auto error = trial.error(scene(x), sample_directions(read_scene(scene(x)), 64));
-    if (!error) return {};
-    return Measured(*error);
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
+    return measured(trial.error(scene(x), sample_directions(read_scene(scene(x)), 64)));
   };
   return row;
 }

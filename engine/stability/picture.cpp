@@ -89,12 +89,14 @@ class Drawing {
     if (found.points == 0) return;
     bool judged = found.outcome == Outcome::holds || found.outcome == Outcome::degrades ||
                   found.outcome == Outcome::breaks;
+    const bool hidden = found.outcome == Outcome::holds && found.noise > 0;
     svg_.out() << "<g class=\"" << method << "\"><title>"
                << escaped(method + ", " + row.name + ": " + cell_words(found) +
                           (found.note.empty() ? "" : "\n" + found.note))
-               << "</title>\n<rect class=\"" << (judged ? name_of(found.outcome) : "other")
-               << "\" x=\"" << x + 2 << "\" y=\"" << y + 2 << "\" width=\"" << cell_width - 4
-               << "\" height=\"" << cell_height - 4 << "\" rx=\"3\"/>\n";
+               << "</title>\n<rect class=\""
+               << (judged && !hidden ? name_of(found.outcome) : "other") << "\" x=\"" << x + 2
+               << "\" y=\"" << y + 2 << "\" width=\"" << cell_width - 4 << "\" height=\""
+               << cell_height - 4 << "\" rx=\"3\"/>\n";
     svg_.text(x + 7, y + 14, cell_words(found), found.failed > 0 ? "small strong" : "small");
     if (judged && row.bound > 0) spark(row, method, x + 8, y + 18);
     svg_.out() << "</g>\n";
@@ -110,6 +112,7 @@ class Drawing {
       double px = x + wide * (count > 1 ? static_cast<double>(i) / (count - 1) : 0.5);
       ++i;
       if (point->outcome != Outcome::holds && point->outcome != Outcome::degrades) continue;
+      if (tells_nothing(*point)) continue;
       double py = over(point->value / row.bound);
       path += (path.empty() ? "M" : "L") + number(px) + " " + number(py);
       svg_.out() << "<circle class=\"mark\" cx=\"" << px << "\" cy=\"" << py

@@ -57,8 +57,13 @@ const Options& smallest_options(const std::string& method) {
         {"sky_steps", 6},
         {"sky_elevations", 12},
         {"sky_azimuths", 6}}},
-      {"path", {{"samples_per_pixel", 4}}}};
+      {"path", {{"samples_per_pixel", 8}}}};
   return options.at(method);
+}
+
+bool is_wanted(const std::string& method, const RandomTrialSettings& settings) {
+  const auto& only = settings.methods;
+  return only.empty() || std::ranges::find(only, method) != only.end();
 }
 
 Options options_of(const MethodDescription& method, const RandomTrialSettings& settings) {
@@ -75,11 +80,17 @@ Options finest_options(const MethodDescription& method) {
   return method.ladder.empty() ? Options() : method.ladder.back();
 }
 
-json with_method(json document, const MethodDescription& method, const Options& options) {
+/// @param options  the others are as they are where nothing is asked
+Plan plan_by(json document, const MethodDescription& method, const Options& options) {
   json& choice = document["method"];
   choice["name"] = method.name;
   for (const auto& [name, value] : options) choice[name] = value;
-  return document;
+  const Scene scene = read_scene(document);
+  Plan plan;
+  plan.method = method.name;
+  plan.options = scene.method.options;
+  plan.wavelengths_nm = wavelengths_of(scene);
+  return plan;
 }
 
 /// One form of scenes in four is whatever a document can say; the others are air and haze in
@@ -175,18 +186,19 @@ class Run {
     const Scene scene = read_scene(document_);
     directions_ = sample_directions(scene, 16);
     pictured_ = seed % methods().size();
-    result_ = {{"seed", seed}, {"failures", json::array()}, {"refusals", json::array()}};
+    result_ = {{"seed", seed},
+               {"settings", settings_document(settings)},
+               {"failures", json::array()},
+               {"refusals", json::array()}};
     // What order one in double knows nothing of has no change of its own to be held against.
     const bool one_ground = std::holds_alternative<UniformSurface>(scene.planet.surface);
     if (settings.nudge && one_ground) nudge(seed);
   }
 
   json done() {
-    const auto& only = settings_.methods;
     for (std::size_t i = 0; i < methods().size(); ++i) {
       const MethodDescription& method = methods()[i];
-      if (only.empty() || std::ranges::find(only, method.name) != only.end())
-        attempt(method, i == pictured_);
+      if (is_wanted(method.name, settings_)) attempt(method, i == pictured_);
     }
     for (const auto& [method, change] : changes_)
       result_["jumps"][method] = change / allowed(method);
@@ -213,26 +225,32 @@ class Run {
                                first.first_order(other_, directions_));
   }
 
-  void attempt(const MethodDescription& method, bool pictured) {
-    const Options options = options_of(method, settings_);
+  /// Notes what the method breaks or refuses.
+  template <class Work>
+  void noted(const std::string& method, const Work& work) {
     try {
-      if (pictured) trial(method.name).picture(with_method(document_, method, options));
-      if (auto change = change_of(method, options)) changes_[method.name] = *change;
+      work();
     } catch (const BrokenFrame& frame) {
-      result_["failures"].push_back({{"method", method.name}, {"what", frame.what()}});
+      result_["failures"].push_back({{"method", method}, {"what", frame.what()}});
     } catch (const OverLimit& limit) {
-      result_["refusals"].push_back({{"method", method.name}, {"what", limit.what()}});
+      result_["refusals"].push_back({{"method", method}, {"what", limit.what()}});
     }
   }
 
+  void attempt(const MethodDescription& method, bool pictured) {
+    noted(method.name, [&] {
+      const Plan plan = plan_by(document_, method, options_of(method, settings_));
+      if (pictured) trial(method.name).picture(document_, plan);
+      if (auto change = change_by(plan)) changes_[method.name] = *change;
+    });
+  }
+
   /// None where nothing is nudged.
-  std::optional<double> change_of(const MethodDescription& method, const Options& options) {
-    Trial asked = trial(method.name);
-    Radiances seen = asked.look(with_method(document_, method, options), directions_);
+  std::optional<double> change_by(const Plan& plan) {
+    Trial asked = trial(plan.method);
+    Radiances seen = asked.look(document_, directions_, plan);
     if (!sensitivity_) return std::nullopt;
-    // At the plan and the seed of the first.
-    return sensitivity_->change_of(
-        seen, asked.look(with_method(other_, method, options), directions_, seen.plan));
+    return sensitivity_->change_of(seen, asked.look(other_, directions_, plan));
   }
 
   /// Between coarse nodes pictures are steeper than the scene: where a change is too large, by
@@ -240,12 +258,10 @@ class Run {
   void refine() {
     for (const MethodDescription& method : methods()) {
       if (result_["jumps"].value(method.name, 0.0) <= 1) continue;
-      try {
-        result_["jumps_at_finest"][method.name] =
-            *change_of(method, finest_options(method)) / allowed(method.name);
-      } catch (const BrokenFrame& frame) {
-        result_["failures"].push_back({{"method", method.name}, {"what", frame.what()}});
-      }
+      noted(method.name, [&] {
+        const Plan finest = plan_by(document_, method, finest_options(method));
+        result_["jumps_at_finest"][method.name] = *change_by(finest) / allowed(method.name);
+      });
     }
   }
 
@@ -283,6 +299,16 @@ double over_allowed(const json& trial, const char* settings, const std::string& 
 
 }  // namespace
 
+json settings_document(const RandomTrialSettings& settings) {
+  json tried = json::array();
+  for (const MethodDescription& method : methods()) {
+    if (is_wanted(method.name, settings)) tried.push_back(method.name);
+  }
+  return {{"methods", std::move(tried)},
+          {"nudge", settings.nudge},
+          {"usual_options", settings.usual_options}};
+}
+
 json random_trial(Engine& engine, std::uint64_t seed, const RandomTrialSettings& settings,
                   const Watch& watch) {
   return Run(engine, seed, settings, watch).done();
@@ -294,13 +320,15 @@ std::string random_report(const std::vector<json>& trials) {
             "finest setting too | largest change over it | seeds |\n"
             "|---|---|---|---|---|---|---|---|---|\n";
   for (const MethodDescription& method : methods()) {
-    int broken = 0, refused = 0, nudges = 0, over = 0, over_at_finest = 0;
+    int scenes = 0, broken = 0, refused = 0, nudges = 0, over = 0, over_at_finest = 0;
     double largest = 0;
     std::string seeds;
     for (const json& trial : trials) {
       const bool breaks = is_named_in(trial.at("failures"), method.name);
       const double jump = over_allowed(trial, "jumps", method.name),
                    at_finest = over_allowed(trial, "jumps_at_finest", method.name);
+      const json& tried = trial.at("settings").at("methods");
+      scenes += std::ranges::find(tried, json(method.name)) != tried.end();
       refused += is_named_in(trial.at("refusals"), method.name);
       broken += breaks;
       nudges += trial.contains("jumps") && trial["jumps"].contains(method.name);
@@ -311,8 +339,8 @@ std::string random_report(const std::vector<json>& trials) {
         seeds += " " + std::to_string(trial.at("seed").get<int>());
     }
     char numbers[128];
-    std::snprintf(numbers, sizeof numbers, "%zu | %d | %d | %d | %d | %d | %.2g", trials.size(),
-                  broken, refused, nudges, over, over_at_finest, largest);
+    std::snprintf(numbers, sizeof numbers, "%d | %d | %d | %d | %d | %d | %.2g", scenes, broken,
+                  refused, nudges, over, over_at_finest, largest);
     report << "| `" << method.name << "` | " << numbers << " |" << seeds << " |\n";
   }
   return report.str();

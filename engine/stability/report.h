@@ -13,12 +13,15 @@ struct StabilityReport {
   std::vector<StabilityPoint> points;  ///< those of curves have row 0 and, as `note`, its name
 };
 
-/// A row's points of one method, as one word or figure: "holds", "2 to 7 %", "refuses".
+/// A row's points of one method, as one word or figure.
 struct StabilityCell {
   Outcome outcome = Outcome::holds;  ///< the worst of them
   double worst = 0, at = 0;          ///< the largest value, and the trigger where it is
   int points = 0, failed = 0;        ///< all of them, and those that degrade or break
-  std::string note;                  ///< of the worst
+  /// The largest noise of those that hold, where it is more than the bound: chance may hide
+  /// that they do not. 0: nowhere.
+  double noise = 0;
+  std::string note;  ///< of the worst
 };
 StabilityCell cell_of(const StabilityReport& report, int row, const std::string& method);
 

@@ -2,29 +2,20 @@
 // them, and how large it may be.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/accuracy/error.h"
 #include "engine/stability/trial.h"
 
 namespace cyanometer {
 
 constexpr double degree = std::numbers::pi / 180;  ///< in radians
-
-/// What a row's quantity came to; `least` is what of it is beyond the noise of its reference.
-struct Measured {
-  Measured(double value_) : value(value_), least(value_) {}
-  Measured(const EstimatedError& error) : value(error.measure.error), least(error.low) {}
-  double value, least;
-};
-
-/// The larger of the two, by what is beyond noise.
-Measured larger(const Measured& a, const Measured& b);
 
 struct StabilityRow {
   int number = 0;
@@ -40,10 +31,17 @@ struct StabilityRow {
   double hardest = 0;         ///< the one of them that a short run measures
   /// The scene at a value of the trigger, as a document that leaves the method open.
   std::function<nlohmann::json(double)> scene = {};
-  /// None where the method itself makes what the others are measured against.
+  /// The quantity wherever it is looked for, each to be held against what was stated there;
+  /// none where the method itself makes what the others are measured against.
   /// @throws BrokenFrame, SceneError, OverLimit, Cancelled
-  std::function<std::optional<Measured>(Trial&, double)> measure = {};
+  std::function<std::vector<Measured>(Trial&, double)> measure = {};
+
+  /// What may be measured: the bound, or what `auto` says itself, which is no failure.
+  double allowed(double stated) const { return std::max(bound, stated_errors * stated); }
 };
+
+/// Nothing, or the one quantity.
+std::vector<Measured> measured(const std::optional<Measured>& found);
 
 /// All rows, by number.
 const std::vector<StabilityRow>& stability_rows();
@@ -54,13 +52,17 @@ nlohmann::json plain_scene();
 nlohmann::json empty_scene();
 /// The scene with its top, its planet and its sun somewhere else; `patch` is a merge patch.
 nlohmann::json changed(nlohmann::json scene, const nlohmann::json& patch);
-/// How much two radiances differ beyond their noise, over the larger one.
-double apart(double a, double b, double noise);
-/// The largest that `of(ray, channel)` says, 0 at least.
-double largest(std::size_t rays, const std::function<double(std::size_t, std::size_t)>& of);
 /// What chance may add to a radiance in one of a million: five standard errors; 0 where none is
 /// stated.
 double noise_of(const Radiances& seen, std::size_t ray, std::size_t channel);
+/// That of a sum of values, whose errors are independent, or else cancel: in quadrature.
+double together(std::initializer_list<double> noises);
+/// How much two radiances differ beyond their noise, over the larger one.
+Measured apart(double a, double b, double noise);
+/// The largest that `of(ray, channel)` says, 0 at least, and the largest noise.
+Measured largest(std::size_t rays, const std::function<Measured(std::size_t, std::size_t)>& of);
+/// The larger of the two, and the larger noise.
+Measured larger(const Measured& a, const Measured& b);
 
 // Its parts, a file each.
 std::vector<StabilityRow> rows_of_rays();    ///< horizons, limbs, short and long paths

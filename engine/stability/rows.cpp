@@ -47,24 +47,40 @@ json changed(json scene, const json& patch) {
   return scene;
 }
 
-double apart(double a, double b, double noise) {
-  double larger = std::max(std::abs(a), std::abs(b));
-  return larger > 0 ? std::max(std::abs(a - b) - noise, 0.0) / larger : 0;
+std::vector<Measured> measured(const std::optional<Measured>& found) {
+  if (!found) return {};
+  return {*found};
 }
 
 double noise_of(const Radiances& seen, std::size_t ray, std::size_t channel) {
   return seen.standard_error ? 5 * (*seen.standard_error)[ray][channel] : 0;
 }
 
-double largest(std::size_t rays, const std::function<double(std::size_t, std::size_t)>& of) {
-  double most = 0;
+double together(std::initializer_list<double> noises) {
+  double squares = 0;
+  for (double noise : noises) squares += noise * noise;
+  return std::sqrt(squares);
+}
+
+Measured apart(double a, double b, double noise) {
+  double larger = std::max(std::abs(a), std::abs(b));
+  if (!(larger > 0)) return 0;
+  return {std::max(std::abs(a - b) - noise, 0.0) / larger, noise / larger};
+}
+
+Measured larger(const Measured& a, const Measured& b) {
+  Measured worst = b.least > a.least ? b : a;
+  worst.noise = std::max(a.noise, b.noise);
+  return worst;
+}
+
+Measured largest(std::size_t rays,
+                 const std::function<Measured(std::size_t, std::size_t)>& of) {
+  Measured most = 0;
   for (std::size_t ray = 0; ray < rays; ++ray) {
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      most = std::max(most, of(ray, channel));
+    for (std::size_t channel = 0; channel < 3; ++channel) most = larger(most, of(ray, channel));
   }
   return most;
 }
-
-Measured larger(const Measured& a, const Measured& b) { return b.least > a.least ? b : a; }
 
 }  // namespace cyanometer

@@ -35,8 +35,7 @@ json peaked(double g) {
 }
 
 /// What goes down less what goes up, over what came from the sun, by channel.
-std::array<double, 3> net_fluxes(Trial& trial, const json& scene, double sun_deg) {
-  Radiances seen = trial.look(scene, {{90, 0}, {-90, 0}}, true);
+std::array<double, 3> net_fluxes(const Radiances& seen, double sun_deg) {
   double incident = std::sin(sun_deg * degree);
   std::array<double, 3> net{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -49,25 +48,29 @@ std::array<double, 3> net_fluxes(Trial& trial, const json& scene, double sun_deg
 
 /// The largest of them, 0 where nothing absorbs; of random walks what eight runs say beyond
 /// four standard errors of their mean.
-double net_flux(Trial& trial, const json& scene, double sun_deg) {
+Measured net_flux(Trial& trial, const json& scene, double sun_deg) {
   const int runs = trial.is_reference() ? 8 : 1;
   std::array<double, 3> sum{}, squares{};
+  double stated = 0;
   for (int run = 0; run < runs; ++run) {
     json seeded = scene;
     if (runs > 1) seeded["method"]["seed"] = run;
-    std::array<double, 3> net = net_fluxes(trial, seeded, sun_deg);
+    Radiances seen = trial.look(seeded, {{90, 0}, {-90, 0}}, true);
+    stated = trial.stated(seen);
+    std::array<double, 3> net = net_fluxes(seen, sun_deg);
     for (std::size_t c = 0; c < 3; ++c) {
       sum[c] += net[c];
       squares[c] += net[c] * net[c];
     }
   }
-  double worst = 0;
+  Measured worst = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     double mean = sum[c] / runs, variance = std::max(squares[c] / runs - mean * mean, 0.0);
-    double noise = runs > 1 ? std::sqrt(variance / (runs - 1)) : 0;
-    worst = std::max(worst, std::abs(mean) - 4 * noise);
+    double noise = runs > 1 ? 4 * std::sqrt(variance / (runs - 1)) : 0;
+    worst = larger(worst, {std::max(std::abs(mean) - noise, 0.0), noise});
   }
-  return std::max(worst, 0.0);
+  worst.stated = stated;
+  return worst;
 }
 
 StabilityRow series_of_orders() {
@@ -83,9 +86,9 @@ StabilityRow series_of_orders() {
                    .sweep = {0.1, 1, 3, 10},
                    .hardest = 1};
   row.scene = [](double x) { return flat_white("gas", molecules(x), 60); };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     json high = changed(scene(x), {{"camera", {{"altitude_km", 8}}}});
-    return Measured(std::max(net_flux(trial, scene(x), 60), net_flux(trial, high, 60)));
+    return {net_flux(trial, scene(x), 60), net_flux(trial, high, 60)};
   };
   return row;
 }
@@ -103,27 +106,27 @@ StabilityRow angular_grids() {
                    .sweep = {0.9, 0.95, 0.99},
                    .hardest = 0.95};
   row.scene = [](double x) { return flat_white("haze", peaked(x), 50); };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
-    return Measured(net_flux(trial, scene(x), 50));
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
+    return {net_flux(trial, scene(x), 50)};
   };
   return row;
 }
 
 /// R(a to b) sin(b) = R(b to a) sin(a): light goes either way [Chandrasekhar 1960, section 13].
-double reciprocity_gap(Trial& trial, const json& scene, double a_deg, double b_deg) {
+Measured reciprocity_gap(Trial& trial, const json& scene, double a_deg, double b_deg) {
   auto reflected = [&](double sun_deg, double view_deg) {
     json lit = changed(
         scene, {{"sun", {{"elevation_deg", sun_deg}}}, {"camera", {{"altitude_km", 100}}}});
     return trial.look(lit, {{-view_deg, 70}});
   };
   Radiances there = reflected(a_deg, b_deg), back = reflected(b_deg, a_deg);
-  double sin_a = std::sin(a_deg * degree), sin_b = std::sin(b_deg * degree), worst = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    worst =
-        std::max(worst, apart(there.radiance[0][c] / sin_a, back.radiance[0][c] / sin_b,
-                              noise_of(there, 0, c) / sin_a + noise_of(back, 0, c) / sin_b));
-  }
-  return worst;
+  double sin_a = std::sin(a_deg * degree), sin_b = std::sin(b_deg * degree);
+  Measured gap = largest(1, [&](std::size_t i, std::size_t c) {
+    return apart(there.radiance[i][c] / sin_a, back.radiance[i][c] / sin_b,
+                 together({noise_of(there, i, c) / sin_a, noise_of(back, i, c) / sin_b}));
+  });
+  gap.stated = std::max(trial.stated(there), trial.stated(back));
+  return gap;
 }
 
 StabilityRow energy() {
@@ -139,11 +142,11 @@ StabilityRow energy() {
                    .sweep = {60, 20, 8},
                    .hardest = 20};
   row.scene = [](double x) { return flat_white("gas", molecules(0.3), x); };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
-    double gap = reciprocity_gap(trial, scene(x), x, 45);
-    if (trial.first_order_only()) return Measured(gap);
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
+    Measured gap = reciprocity_gap(trial, scene(x), x, 45);
+    if (trial.first_order_only()) return {gap};
     json high = changed(scene(x), {{"camera", {{"altitude_km", 100}}}});
-    return Measured(std::max(gap, net_flux(trial, high, x)));
+    return {gap, net_flux(trial, high, x)};
   };
   return row;
 }

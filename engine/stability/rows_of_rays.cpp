@@ -31,9 +31,9 @@ Measured largest_jump(Trial& trial, const json& scene, const std::vector<Directi
   return largest(rows.size() - 1, [&](std::size_t i, std::size_t c) {
     double here = seen.radiance[i][c] / smooth[i][c],
            next = seen.radiance[i + 1][c] / smooth[i + 1][c];
-    double noise =
-        noise_of(seen, i, c) / smooth[i][c] + noise_of(seen, i + 1, c) / smooth[i + 1][c];
-    return apart(here, next, noise);
+    return apart(here, next,
+                 together({noise_of(seen, i, c) / smooth[i][c],
+                           noise_of(seen, i + 1, c) / smooth[i + 1][c]}));
   });
 }
 
@@ -48,17 +48,17 @@ StabilityRow horizon_seam() {
                    .sweep = {0, 0.001, 0.002, 0.005, 0.01},
                    .hardest = 0.002};
   row.scene = [](double x) { return seen_from(plain_scene(), x, 3); };
-  row.measure = [](Trial& trial, double x) -> std::optional<Measured> {
-    Measured worst = 0;
+  row.measure = [](Trial& trial, double x) -> std::vector<Measured> {
+    std::vector<Measured> jumps;
     for (double sun : {3.0, 30.0}) {
       json scene = seen_from(plain_scene(), x, sun);
       double horizon = horizon_deg(x);
       auto above = fan(spaced(horizon + 0.002, horizon + 0.1, 25), {30});
       auto below = fan(spaced(horizon - 0.002, horizon - 0.1, 25), {30});
-      worst = larger(worst, largest_jump(trial, scene, above));
-      worst = larger(worst, largest_jump(trial, scene, below));
+      jumps.push_back(largest_jump(trial, scene, above));
+      jumps.push_back(largest_jump(trial, scene, below));
     }
-    return worst;
+    return jumps;
   };
   return row;
 }
@@ -78,8 +78,8 @@ StabilityRow short_paths() {
                                              {"camera", {{"pitch_deg", -40}}}}),
                      x, 0.5);
   };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
-    return trial.error(scene(x), fan({-90, -60, -40, -30}, {10, 100, 170}));
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
+    return measured(trial.error(scene(x), fan({-90, -60, -40, -30}, {10, 100, 170})));
   };
   return row;
 }
@@ -111,30 +111,31 @@ StabilityRow horizon_distance() {
                                                    {"profile", {{"type", "uniform"}}}}}}}}}}),
                      x, 30);
   };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     auto rays = fan({horizon_deg(x) - 0.001, horizon_deg(x) - 0.004, horizon_deg(x) - 0.02,
                      horizon_deg(x) - 0.1},
                     {0, 70});
     Radiances seen = trial.look(scene(x), rays);
-    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+    return {largest(rays.size(), [&](std::size_t i, std::size_t c) {
       double exact = distance_to_ground(x, rays[i].elevation_deg);
       return std::abs(-std::log(seen.transmittance[i][c]) / 0.02 / exact - 1);
-    });
+    })};
   };
   return row;
 }
 
 /// How much the picture changes between two altitudes that nobody can tell apart.
-double altitude_step(Trial& trial, const json& scene, double low_km, double high_km,
-                     const std::vector<Direction>& rays) {
+Measured altitude_step(Trial& trial, const json& scene, double low_km, double high_km,
+                       const std::vector<Direction>& rays) {
   Radiances a = trial.look(seen_from(scene, low_km, 20), rays),
             b = trial.look(seen_from(scene, high_km, 20), rays);
-  double brightest =
-      largest(rays.size(), [&](std::size_t i, std::size_t c) { return a.radiance[i][c]; });
-  return largest(rays.size(), [&](std::size_t i, std::size_t c) {
-    double noise = noise_of(a, i, c) + noise_of(b, i, c);
-    double change = std::abs(a.radiance[i][c] - b.radiance[i][c]) - noise;
-    return change / (a.radiance[i][c] + 1e-3 * brightest);
+  auto of_a = [&](std::size_t i, std::size_t c) { return a.radiance[i][c]; };
+  const double brightest = largest(rays.size(), of_a).value;
+  return largest(rays.size(), [&](std::size_t i, std::size_t c) -> Measured {
+    double noise = together({noise_of(a, i, c), noise_of(b, i, c)});
+    double change = std::max(std::abs(a.radiance[i][c] - b.radiance[i][c]) - noise, 0.0);
+    double scale = a.radiance[i][c] + 1e-3 * brightest;
+    return {change / scale, noise / scale};
   });
 }
 
@@ -154,7 +155,7 @@ StabilityRow altitude_limits() {
                 {{"camera", {{"pitch_deg", x > 0 ? -90 : 10}, {"fov_deg", x > 1e3 ? 1 : 90}}}}),
         x, 20);
   };
-  row.measure = [](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [](Trial& trial, double x) -> std::vector<Measured> {
     json scene = plain_scene();
     constexpr double infinite = std::numeric_limits<double>::infinity();
     if (x == 0) {
@@ -164,17 +165,17 @@ StabilityRow altitude_limits() {
       } catch (const SceneError&) {
       }
       auto rays = fan({90, 45, 5, 0.5, -5, -90}, {0, 120});
-      return larger(altitude_step(trial, scene, 0, std::nextafter(0.0, 1.0), rays),
-                    altitude_step(trial, scene, 0, 1e-9, rays));
+      return {altitude_step(trial, scene, 0, std::nextafter(0.0, 1.0), rays),
+              altitude_step(trial, scene, 0, 1e-9, rays)};
     }
     if (x == 100) {
       auto rays = fan({45, -4, -12, -30, -90}, {0, 120});
-      return larger(altitude_step(trial, scene, std::nextafter(100, 0.0), 100, rays),
-                    altitude_step(trial, scene, 100, std::nextafter(100, infinite), rays));
+      return {altitude_step(trial, scene, std::nextafter(100, 0.0), 100, rays),
+              altitude_step(trial, scene, 100, std::nextafter(100, infinite), rays)};
     }
     double limb = std::asin((radius_km + 100) / (radius_km + x)) / degree;
     auto rays = fan({-90, -90 + 0.5 * limb, -90 + 0.9 * limb, -90 + 0.97 * limb}, {0, 120});
-    return Measured(altitude_step(trial, scene, x - 1e-3, x, rays));
+    return {altitude_step(trial, scene, x - 1e-3, x, rays)};
   };
   return row;
 }
@@ -200,14 +201,14 @@ StabilityRow faint_light() {
                    {"profile", {{"type", "exponential"}, {"scale_height_km", 8}}}}}}}}}}),
         0.002, 5);
   };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     auto rays = fan({0.02, 0.5, 1, 2, 5, 20, 90}, {40});
     auto exact = trial.transmittance(scene(x), rays);
     Radiances seen = trial.look(scene(x), rays);
-    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+    return {largest(rays.size(), [&](std::size_t i, std::size_t c) {
       double depth = -std::log(exact[i][c]);
       return depth > 80 ? 0 : std::abs(-std::log(seen.transmittance[i][c]) / depth - 1);
-    });
+    })};
   };
   return row;
 }
@@ -225,7 +226,7 @@ StabilityRow degenerate_directions() {
   row.scene = [](double x) {
     return seen_from(changed(plain_scene(), {{"camera", {{"pitch_deg", 90}}}}), 0.002, x);
   };
-  row.measure = [](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [](Trial& trial, double x) -> std::vector<Measured> {
     json scene = seen_from(plain_scene(), 0.002, x);
     json turned = changed(
         scene, {{"sun", {{"elevation_deg", x - 1e-6}, {"azimuth_deg", x == 90 ? 123 : 0}}}});
@@ -233,9 +234,10 @@ StabilityRow degenerate_directions() {
     auto moved = fan({90 - 1e-6, -90 + 1e-6, 60, 10}, {0});
     for (std::size_t i = 0; i < 2; ++i) moved[i].azimuth_deg = 77;
     Radiances a = trial.look(scene, rays), b = trial.look(turned, moved);
-    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
-      return apart(a.radiance[i][c], b.radiance[i][c], noise_of(a, i, c) + noise_of(b, i, c));
-    });
+    return {largest(rays.size(), [&](std::size_t i, std::size_t c) {
+      return apart(a.radiance[i][c], b.radiance[i][c],
+                   together({noise_of(a, i, c), noise_of(b, i, c)}));
+    })};
   };
   return row;
 }
@@ -253,7 +255,7 @@ StabilityRow long_views() {
   row.scene = [](double x) {
     return seen_from(changed(plain_scene(), {{"camera", {{"pitch_deg", -90}}}}), x, 40);
   };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     double from_nadir = 90 + horizon_deg(x);
     std::vector<double> elevations;
     for (double share : {0.0, 0.4, 0.8, 0.95, 0.99, 0.999})
@@ -261,9 +263,9 @@ StabilityRow long_views() {
     auto rays = fan(elevations, {0, 130});
     auto exact = trial.transmittance(scene(x), rays);
     Radiances seen = trial.look(scene(x), rays);
-    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+    return {largest(rays.size(), [&](std::size_t i, std::size_t c) {
       return std::abs(seen.transmittance[i][c] - exact[i][c]);
-    });
+    })};
   };
   return row;
 }
@@ -282,11 +284,11 @@ StabilityRow limb() {
         changed(plain_scene(), {{"camera", {{"pitch_deg", horizon_deg(x)}, {"fov_deg", 10}}}}),
         x, 30);
   };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     std::vector<double> elevations;
     for (double tangent_km : spaced(2, 98, 17))
       elevations.push_back(-std::acos((radius_km + tangent_km) / (radius_km + x)) / degree);
-    return trial.error(scene(x), fan(elevations, {20, 110}));
+    return measured(trial.error(scene(x), fan(elevations, {20, 110})));
   };
   return row;
 }

@@ -19,7 +19,7 @@ StabilityRow long_dispatches() {
                    .sweep = {2, 10},
                    .hardest = 2};
   row.scene = [](double) { return changed(plain_scene(), {{"sun", {{"elevation_deg", 8}}}}); };
-  row.measure = [scene = row.scene](Trial& trial, double x) -> std::optional<Measured> {
+  row.measure = [scene = row.scene](Trial& trial, double x) -> std::vector<Measured> {
     auto rays = fan(spaced(1, 89, 20), spaced(0, 180, 20));
     Radiances usual = trial.look(scene(x), rays);
     EngineOptions options;
@@ -28,9 +28,9 @@ StabilityRow long_dispatches() {
     Engine hurried(options);
     Radiances cut = Trial(hurried, trial.method(), {}, trial.most_work(), trial.watch())
                         .look(scene(x), rays, usual.plan);
-    return largest(rays.size(), [&](std::size_t i, std::size_t c) {
+    return {largest(rays.size(), [&](std::size_t i, std::size_t c) {
       return apart(usual.radiance[i][c], cut.radiance[i][c], 0);
-    });
+    })};
   };
   return row;
 }

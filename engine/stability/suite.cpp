@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/scene/document.h"
 
@@ -26,22 +27,32 @@ Outcome outcome_named(const std::string& name) {
   throw std::invalid_argument(name + " is no outcome");
 }
 
+/// Each by what was stated for itself; where chance may explain all, by what was seen.
+auto nearer_to_its_bound(const StabilityRow& row) {
+  return [&row](const Measured& a, const Measured& b) {
+    const double of_a = row.allowed(a.stated), of_b = row.allowed(b.stated);
+    return std::pair(a.least * of_b, a.value * of_b) <
+           std::pair(b.least * of_a, b.value * of_a);
+  };
+}
+
 void measure(const StabilityRow& row, Trial& trial, StabilityPoint& point) {
   if (row.many_orders && trial.first_order_only()) {
     point.outcome = Outcome::left_out;
     return;
   }
-  std::optional<Measured> measured = row.measure(trial, point.trigger);
-  point.stated = trial.stated();
-  if (!measured) {
+  const std::vector<Measured> found = row.measure(trial, point.trigger);
+  if (found.empty()) {
     point.outcome = Outcome::reference;
     return;
   }
-  point.value = measured->value;
-  point.least = measured->least;
-  // What `auto` says itself is no failure.
-  double bound = std::max(row.bound, row.stated_errors * point.stated);
-  if (row.number > 0 && !(point.least <= bound)) point.outcome = Outcome::degrades;
+  const Measured& worst = *std::ranges::max_element(found, nearer_to_its_bound(row));
+  point.value = worst.value;
+  point.least = worst.least;
+  point.stated = worst.stated;
+  point.noise = std::ranges::max(found, {}, &Measured::noise).noise;
+  if (row.number > 0 && !(worst.least <= row.allowed(worst.stated)))
+    point.outcome = Outcome::degrades;
 }
 
 }  // namespace
@@ -82,7 +93,8 @@ json point_document(const StabilityPoint& point) {
   return {{"row", point.row},         {"method", point.method},
           {"trigger", point.trigger}, {"outcome", name_of(point.outcome)},
           {"value", point.value},     {"least", point.least},
-          {"stated", point.stated},   {"note", point.note}};
+          {"noise", point.noise},     {"stated", point.stated},
+          {"note", point.note}};
 }
 
 StabilityPoint stability_point_from(const json& document) {
@@ -92,6 +104,7 @@ StabilityPoint stability_point_from(const json& document) {
           .outcome = outcome_named(document.at("outcome")),
           .value = document.at("value"),
           .least = document.at("least"),
+          .noise = document.at("noise"),
           .stated = document.at("stated"),
           .note = document.at("note")};
 }

@@ -26,8 +26,9 @@ struct StabilityPoint {
   std::string method;
   double trigger = 0;
   Outcome outcome = Outcome::holds;
-  double value = 0, least = 0;  ///< as in Measured
-  double stated = 0;            ///< the error that `auto` stated
+  double value = 0, least = 0;  ///< as in Measured, of what comes nearest to its bound
+  double noise = 0;             ///< the largest of all that is measured
+  double stated = 0;            ///< the error that `auto` stated for it
   std::string note = {};        ///< why it refuses, what breaks
 };
 

@@ -14,6 +14,16 @@ std::string sweep_of(const StabilityRow& row) {
   return all;
 }
 
+/// Numbers of the rows whose quantity holds the error that `auto` states so often.
+std::string rows_that_hold(int stated_errors) {
+  std::string all;
+  for (const StabilityRow& row : stability_rows()) {
+    if (row.stated_errors == stated_errors)
+      all += (all.empty() ? "" : ", ") + std::to_string(row.number);
+  }
+  return all;
+}
+
 void head(std::ostream& table, const char* first) {
   table << first;
   for (const std::string& method : stability_subjects()) table << " `" << method << "` |";
@@ -62,7 +72,8 @@ std::string number(double value) {
 std::string cell_words(const StabilityCell& cell) {
   switch (cell.outcome) {
     case Outcome::holds:
-      return cell.points == 0 ? "" : figure(cell.worst);
+      if (cell.points == 0) return "";
+      return cell.noise > 0 ? "noise " + figure(cell.noise) : figure(cell.worst);
     case Outcome::degrades:
       return figure(cell.worst) + " at " + number(cell.at);
     case Outcome::breaks:
@@ -75,6 +86,12 @@ std::string cell_words(const StabilityCell& cell) {
       return "reference";
   }
   return "";
+}
+
+bool tells_nothing(const StabilityPoint& point) {
+  if (point.row == 0 || point.outcome != Outcome::holds) return false;
+  const StabilityRow& row = stability_rows().at(static_cast<std::size_t>(point.row - 1));
+  return point.noise > row.allowed(point.stated);
 }
 
 StabilityCell cell_of(const StabilityReport& report, int row, const std::string& method) {
@@ -98,6 +115,7 @@ StabilityCell cell_of(const StabilityReport& report, int row, const std::string&
     bool worse = cell.points == 0 || rank(point.outcome) > rank(cell.outcome) ||
                  (point.outcome == cell.outcome && point.value > cell.worst);
     ++cell.points;
+    if (tells_nothing(point)) cell.noise = std::max(cell.noise, point.noise);
     cell.failed += point.outcome == Outcome::degrades || point.outcome == Outcome::breaks;
     if (!worse) continue;
     cell.outcome = point.outcome;
@@ -116,7 +134,11 @@ std::string stability_table(const StabilityReport& report) {
 A cell is the largest value of the row's quantity, which stands in the second table with what it is
 swept over. It is **bold** where it is over the row's bound by more than the noise of its reference,
 and then says at which value of the sweep it is largest; the method's limits, in `/v1/methods`, say so
-too. For `auto` the bound is the error that it states where that is larger. `leaves out` is said of a
+too. `noise` stands where chance may hide more than the bound, and nothing is shown. For `auto` the
+bound is the error that it states, as often as the quantity holds it, where that is larger: once in
+rows )" << rows_that_hold(1)
+        << ", twice in " << rows_that_hold(2) << ", three times in " << rows_that_hold(3)
+        << R"(. `leaves out` is said of a
 row about orders of scattering that the method does not compute, `reference` of the method that the
 others are measured against; an error that is measured is one of the orders that the method computes.
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "engine/accuracy/adaptive.h"
 #include "engine/accuracy/finest.h"
@@ -74,6 +75,15 @@ Samples channel(const Samples& values, std::size_t c) {
   return one;
 }
 
+/// Of each ray the channels' shares of their sum.
+Samples hues(Samples values) {
+  for (auto& ray : values) {
+    const double sum = std::accumulate(ray.begin(), ray.end(), 0.0);
+    for (double& value : ray) value = sum > 0 ? value / sum : 0;
+  }
+  return values;
+}
+
 }  // namespace
 
 std::vector<double> wavelengths_of(const Scene& scene) {
@@ -136,7 +146,6 @@ Radiances Trial::look(const json& document, const std::vector<Direction>& direct
   Radiances radiances;
   if (method_ == "auto") {
     radiances = engine_.radiance(scene, directions, irradiance, watch_);
-    stated_ = std::max(stated_, radiances.plan.expected_error);
   } else {
     radiances = engine_.radiance(
         scene, directions, irradiance,
@@ -155,14 +164,14 @@ Radiances Trial::look(const json& document, const std::vector<Direction>& direct
   return radiances;
 }
 
-void Trial::picture(const json& document) {
+void Trial::picture(const json& document, const Plan& plan) {
   watch_.check();
   json small = document;
   small["image"]["width"] = 16;
   if (scene_of(small).camera.projection == Projection::perspective)
     small["image"]["height"] = 9;
   const Scene scene = scene_of(small);
-  Frame frame = engine_.render(scene, plan_of(scene, 128), watch_);
+  Frame frame = engine_.render(scene, plan, watch_);
   const int pixels = frame.width * frame.height;
   for (const Frame::Plane& plane : frame.planes) {
     for (int i = 0; i < pixels; ++i) {
@@ -207,28 +216,46 @@ std::optional<Trial::Halves> Trial::compared(const json& document,
     halves.a = std::move(reference.halves[0]);
     halves.b = std::move(reference.halves[1]);
   }
-  halves.values = look(document, directions).relative;
+  Radiances seen = look(document, directions);
+  halves.stated = stated(seen);
+  halves.values = std::move(seen.relative);
   return halves;
 }
 
-std::optional<EstimatedError> Trial::error(const json& scene,
-                                           const std::vector<Direction>& directions) {
+std::optional<Measured> Trial::error(const json& scene,
+                                     const std::vector<Direction>& directions) {
   std::optional<Halves> found = compared(scene, directions);
   if (!found) return {};
-  return measure_error(found->values, found->a, found->b);
+  Measured error = measure_error(found->values, found->a, found->b);
+  error.stated = found->stated;
+  return error;
 }
 
-std::optional<EstimatedError> Trial::error_by_channel(
-    const json& scene, const std::vector<Direction>& directions) {
+std::optional<Measured> Trial::error_by_channel(const json& scene,
+                                                const std::vector<Direction>& directions) {
   std::optional<Halves> found = compared(scene, directions);
   if (!found) return {};
-  EstimatedError worst;
+  Measured worst = 0;
   for (std::size_t c = 0; c < found->values.front().size(); ++c) {
-    EstimatedError error =
+    Measured error =
         measure_error(channel(found->values, c), channel(found->a, c), channel(found->b, c));
-    if (error.measure.error >= worst.measure.error) worst = error;
+    if (error.value >= worst.value) worst = error;
   }
+  worst.stated = found->stated;
   return worst;
+}
+
+std::optional<Measured> Trial::error_of_hue(const json& scene,
+                                            const std::vector<Direction>& directions) {
+  std::optional<Halves> found = compared(scene, directions);
+  if (!found) return {};
+  Measured error = measure_error(hues(found->values), hues(found->a), hues(found->b));
+  error.stated = found->stated;
+  return error;
+}
+
+double Trial::stated(const Radiances& seen) const {
+  return method_ == "auto" ? seen.plan.expected_error : 0;
 }
 
 }  // namespace cyanometer

@@ -19,6 +19,17 @@ struct BrokenFrame : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a quantity came to.
+struct Measured {
+  Measured(double value_) : value(value_), least(value_) {}
+  Measured(double value_, double noise_) : value(value_), least(value_), noise(noise_) {}
+  Measured(const EstimatedError& error)
+      : value(error.measure.error), least(error.low), noise(error.high - error.measure.error) {}
+  double value, least;  ///< `least` is what of it is beyond the noise of its reference
+  double noise = 0;     ///< so much more of it may chance have hidden
+  double stated = 0;    ///< the error that `auto` stated for what it was measured on
+};
+
 /// Rows of directions: [elevation][azimuth].
 std::vector<Direction> fan(const std::vector<double>& elevations_deg,
                            const std::vector<double>& azimuths_deg);
@@ -53,9 +64,9 @@ class Trial {
   Radiances look(const nlohmann::json& scene, const std::vector<Direction>& directions,
                  const Plan& plan);
 
-  /// Renders a small frame of the scene, as a picture with all that it shows.
+  /// Renders a small frame of the scene by the plan, as a picture with all that it shows.
   /// @throws BrokenFrame where a pixel is not finite, and as `look` does
-  void picture(const nlohmann::json& scene);
+  void picture(const nlohmann::json& scene, const Plan& plan);
 
   /// Order one in double (adaptive.h), [direction][wavelength], the sun's irradiance being 1:
   /// radiances, or transmittances to the ground or the top.
@@ -71,20 +82,24 @@ class Trial {
 
   /// The method's error in the contract's measure, against as many orders as it has: order one
   /// in double, or random walks. None for the method that makes the reference.
-  std::optional<EstimatedError> error(const nlohmann::json& scene,
-                                      const std::vector<Direction>& directions);
+  std::optional<Measured> error(const nlohmann::json& scene,
+                                const std::vector<Direction>& directions);
   /// The largest of the channels' own errors.
-  std::optional<EstimatedError> error_by_channel(const nlohmann::json& scene,
-                                                 const std::vector<Direction>& directions);
+  std::optional<Measured> error_by_channel(const nlohmann::json& scene,
+                                           const std::vector<Direction>& directions);
+  /// That of the channels' shares of their sum, which a frame's brightness does not enter.
+  std::optional<Measured> error_of_hue(const nlohmann::json& scene,
+                                       const std::vector<Direction>& directions);
 
-  /// The largest error that `auto` stated in any of its looks; 0 for a named method.
-  double stated() const { return stated_; }
+  /// The error that `auto` stated for what was seen; 0 of a named method.
+  double stated(const Radiances& seen) const;
 
  private:
   Scene scene_of(nlohmann::json document) const;
   Plan plan_of(const Scene& scene, std::size_t directions) const;
   struct Halves {
     std::vector<std::vector<double>> values, a, b;
+    double stated = 0;
   };
   std::optional<Halves> compared(const nlohmann::json& scene,
                                  const std::vector<Direction>& directions);
@@ -94,7 +109,6 @@ class Trial {
   std::filesystem::path references_;
   double most_work_;
   const Watch& watch_;
-  double stated_ = 0;
 };
 
 }  // namespace cyanometer

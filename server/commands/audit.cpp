@@ -23,7 +23,8 @@ struct AuditArguments {
   std::filesystem::path references = cache_folder("references");
 };
 
-/// What an earlier run of this version on this device left, one scene a line.
+/// What an earlier run of this version on this device left that was measured as this one
+/// measures, one scene a line.
 std::vector<json> read_lines(const std::string& path, const json& by) {
   std::vector<json> scenes;
   std::ifstream in(path);
@@ -38,7 +39,9 @@ std::vector<json> read_lines(const std::string& path, const json& by) {
 void audit(const AuditArguments& arguments) {
   const Watch watch = command_watch();
   Engine engine = command_engine(arguments.device);
-  const json by{{"version", version()}, {"device", engine.device().name}};
+  const json by{{"version", version()},
+                {"device", engine.device().name},
+                {"goal", goal_document(arguments.goal)}};
   std::vector<json> scenes = read_lines(arguments.file, by);
   std::ofstream out(arguments.file, std::ios::app);
   if (!out) throw CommandError(exit_failed, "cannot write " + arguments.file);

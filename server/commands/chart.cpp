@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 
 #include "engine/accuracy/chart_svg.h"
 #include "engine/scene/document.h"
@@ -43,21 +44,12 @@ std::vector<ChartScene> scenes_of(const ChartArguments& arguments) {
   return scenes;
 }
 
-/// Takes over what an earlier run on the same device measured of the same scenes.
 void resume(const std::filesystem::path& file, Chart& chart) {
   if (!std::filesystem::exists(file)) return;
-  Chart before;
   try {
-    before = chart_from(read_document(file.string()));
+    take_over(chart_from(read_document(file.string())), chart);
   } catch (const std::exception& error) {
     throw CommandError(exit_failed, file.string() + " is no chart: " + error.what());
-  }
-  if (before.device != chart.device || before.version != chart.version) return;
-  for (ChartScene& scene : chart.scenes) {
-    for (const ChartScene& old : before.scenes) {
-      if (old.document == scene.document)
-        scene = {scene.name, old.document, old.walks, old.noise, old.points};
-    }
   }
 }
 
@@ -73,8 +65,9 @@ void chart(const ChartArguments& arguments) {
   std::filesystem::create_directories(folder);
   Engine engine = command_engine(arguments.device);
   Chart chart{engine.device().name, version(), scenes_of(arguments)};
+  const std::size_t asked = chart.scenes.size();
   resume(folder / "chart.json", chart);
-  for (ChartScene& scene : chart.scenes) {
+  for (ChartScene& scene : std::span(chart.scenes).last(asked)) {
     measure_points(
         engine, arguments.settings, watch,
         [&](const ChartPoint& point) {
@@ -119,7 +112,8 @@ void add_chart(CLI::App& app) {
   command->footer(
       "Errors are in the README's measure against path; where a scene leaves its "
       "wavelengths\n"
-      "open, three are charted. Times are of the device. A run that was stopped goes on.\n"
+      "open, three are charted. Times are of the device. A run that was stopped goes on, and "
+      "other\nscenes that are in the folder stay in the chart.\n"
       "Example: cyanometer chart my_sky.json -o my_chart");
   command->callback([arguments] { chart(*arguments); });
 }

@@ -24,7 +24,8 @@ struct StabilityArguments {
   bool usual_options = false;
 };
 
-/// What an earlier run of this version on this device left, one point a line.
+/// What an earlier run left of this version on this device, with as much work, one point a
+/// line.
 std::vector<StabilityPoint> read_points(const std::filesystem::path& file, const json& by) {
   std::vector<StabilityPoint> points;
   std::ifstream in(file);
@@ -49,7 +50,9 @@ class StabilityRun {
  public:
   StabilityRun(const StabilityArguments& arguments, Engine& engine, const Watch& watch)
       : arguments_(arguments), engine_(engine), watch_(watch) {
-    by_ = {{"version", version()}, {"device", engine.device().name}};
+    by_ = {{"version", version()},
+           {"device", engine.device().name},
+           {"most_work", arguments.settings.most_work}};
     report_ = {engine.device().name, version(), read_points(file(), by_)};
     out_.open(file(), std::ios::app);
     if (!out_) throw CommandError(exit_failed, "cannot write " + file().string());
@@ -101,28 +104,40 @@ class StabilityRun {
   std::ofstream out_;
 };
 
+RandomTrialSettings settings_of(const StabilityArguments& arguments, std::uint64_t seed) {
+  return {.usual_options = arguments.usual_options,
+          .methods = arguments.methods,
+          .nudge = seed % arguments.nudge_each == 0};
+}
+
+/// What an earlier run left of this version on this device and was asked the same, by seed.
+std::map<std::uint64_t, json> read_trials(const std::filesystem::path& file, const json& by,
+                                          const StabilityArguments& arguments) {
+  std::map<std::uint64_t, json> trials;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    json found = json::parse(line, nullptr, false);
+    if (!found.is_object() || found.value("by", json()) != by) continue;
+    const std::uint64_t seed = found.at("seed");
+    if (found.value("settings", json()) == settings_document(settings_of(arguments, seed)))
+      trials[seed] = std::move(found);
+  }
+  return trials;
+}
+
 /// Random scenes instead of rows.
 void random(const StabilityArguments& arguments, Engine& engine, const Watch& watch) {
   const std::filesystem::path folder = arguments.folder,
                               file = folder / (arguments.usual_options ? "random_usual.jsonl"
                                                                        : "random.jsonl");
   const json by{{"version", version()}, {"device", engine.device().name}};
-  std::map<std::uint64_t, json> trials;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    json found = json::parse(line, nullptr, false);
-    if (found.is_object() && found.value("by", json()) == by) trials[found.at("seed")] = found;
-  }
+  std::map<std::uint64_t, json> trials = read_trials(file, by, arguments);
   std::ofstream out(file, std::ios::app);
   if (!out) throw CommandError(exit_failed, "cannot write " + file.string());
   for (std::uint64_t i = 0; i < arguments.random; ++i) {
     std::uint64_t seed = arguments.first + i;
     if (trials.contains(seed)) continue;
-    json trial = random_trial(engine, seed,
-                              {.usual_options = arguments.usual_options,
-                               .methods = arguments.methods,
-                               .nudge = seed % arguments.nudge_each == 0},
-                              watch);
+    json trial = random_trial(engine, seed, settings_of(arguments, seed), watch);
     trial["by"] = by;
     out << trial << std::endl;
     trials[seed] = std::move(trial);
@@ -136,6 +151,11 @@ void random(const StabilityArguments& arguments, Engine& engine, const Watch& wa
 }
 
 void stability(const StabilityArguments& arguments) {
+  if (arguments.random > 0 &&
+      std::ranges::find(arguments.methods, "auto") != arguments.methods.end())
+    throw CommandError(
+        exit_refused,
+        "--method auto is none that --random tries: those have names of their own");
   const Watch watch = command_watch();
   std::filesystem::create_directories(arguments.folder);
   Engine engine = command_engine(arguments.device);

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/accuracy/chart_svg.h"
+#include "engine/accuracy/comparison.h"
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
 #include "tests/device.h"
@@ -36,6 +38,10 @@ ChartPoint failed() {
   return made;
 }
 
+ChartScene scene_of(std::vector<ChartPoint> points) {
+  return {"a scene", nlohmann::json::object(), 512, 0, std::move(points)};
+}
+
 Chart small_chart() {
   return {"a device",
           "1.2.3",
@@ -48,13 +54,26 @@ Chart small_chart() {
 }
 
 TEST(Chart, FrontHasWhatNothingBeats) {
-  std::vector<ChartPoint> points{point("raymarch", 0.4, 10, 0), point("hillaire", 0.05, 4, 40),
-                                 point("moments", 0.01, 12, 100), point("path", 0.1, 1000, 0),
-                                 failed()};
-  EXPECT_THAT(pareto_front(points, 1), ElementsAre(0, 1, 2));
-  EXPECT_THAT(pareto_front(points, 10), ElementsAre(1, 2));
-  EXPECT_THAT(pareto_front({}, 1), ElementsAre());
-  EXPECT_THAT(pareto_front({failed()}, 1), ElementsAre());
+  ChartScene scene =
+      scene_of({point("raymarch", 0.4, 10, 0), point("hillaire", 0.05, 4, 40),
+                point("moments", 0.01, 12, 100), point("path", 0.1, 1000, 0), failed()});
+  EXPECT_THAT(pareto_front(scene, 1), ElementsAre(0, 1, 2));
+  EXPECT_THAT(pareto_front(scene, 10), ElementsAre(1, 2));
+  EXPECT_THAT(pareto_front(scene_of({}), 1), ElementsAre());
+  EXPECT_THAT(pareto_front(scene_of({failed()}), 1), ElementsAre());
+}
+
+TEST(Chart, AnErrorOfNoneByChanceBeatsNobodyByMoreThanItMayBe) {
+  ChartPoint lucky = point("path", 0, 10, 0);
+  lucky.error.high = 0.03;
+  ChartScene scene = scene_of({point("hillaire", 0.05, 1, 0), lucky,
+                               point("moments", 0.01, 20, 0), point("bruneton", 0.005, 40, 0)});
+  EXPECT_EQ(told_error(scene, lucky), 0.03);
+  EXPECT_THAT(pareto_front(scene, 1), ElementsAre(0, 1, 2, 3));
+  scene.noise = 0.02;  // which tells the last two from nobody
+  EXPECT_THAT(pareto_front(scene, 1), ElementsAre(0, 1, 2));
+  scene.noise = 0.1;
+  EXPECT_THAT(pareto_front(scene, 1), ElementsAre(0));
 }
 
 TEST(Chart, ReadsBackAsItWasWritten) {
@@ -78,6 +97,28 @@ TEST(Chart, TableHasALineForEveryPointAndQuotesWhatNeedsIt) {
   std::string csv = chart_csv(small_chart());
   EXPECT_EQ(std::ranges::count(csv, '\n'), 4);
   EXPECT_THAT(csv, HasSubstr("\"too much <air> & \"\"more\"\"\""));
+  EXPECT_THAT(csv, HasSubstr("\"first\",bruneton,\"{}\",,,,,,,,,,,,0.002,"));
+}
+
+TEST(Chart, KeepsOtherScenesAndPointsOfTheSame) {
+  const Chart before = small_chart();
+  Chart now{before.device, before.version, {}};
+  now.scenes = {{"second", {{"camera", {{"pitch_deg", 4}}}}, 0, 0, {}},
+                {"first again", before.scenes[0].document, 0, 0, {}}};
+  take_over(before, now);
+  ASSERT_EQ(now.scenes.size(), 4u);
+  EXPECT_EQ(now.scenes[0].name, "first");
+  EXPECT_EQ(now.scenes[1].name, "empty");
+  EXPECT_TRUE(now.scenes[2].points.empty());
+  EXPECT_EQ(now.scenes[3].name, "first again");
+  EXPECT_EQ(now.scenes[3].points.size(), 3u);
+  Chart changed{before.device, before.version, {{"first", {{"x", 1}}, 0, 0, {}}}};
+  take_over(before, changed);
+  ASSERT_EQ(changed.scenes.size(), 2u) << "a scene that is another now takes its old place";
+  EXPECT_TRUE(changed.scenes[1].points.empty());
+  Chart elsewhere{"another device", before.version, {}};
+  take_over(before, elsewhere);
+  EXPECT_TRUE(elsewhere.scenes.empty());
 }
 
 TEST(Chart, SettingsAreAllTheMethodsOptionsAndNoneTwice) {
@@ -136,6 +177,36 @@ TEST(Chart, MeasuresEachPointOnceAndGoesOn) {
     EXPECT_LT(each.error.measure.error, 0.02) << each.method;
   }
   EXPECT_LT(chart.points[of_raymarch - 1].error.measure.error, 1e-5) << "the finest march";
+  settings.methods = {"raymarch"};
+  settings.reference.rays = 32;
+  measured = 0;
+  measure_points(engine, settings, {}, count, chart);
+  EXPECT_EQ(measured, of_raymarch) << "another reference";
+  EXPECT_EQ(chart.points.size(), static_cast<std::size_t>(of_raymarch));
+}
+
+/// Of the one order that has no noise, so that both hold it against the same.
+TEST(Chart, MeasuresColoursAsCompareDoes) {
+  auto scene_by = [](const nlohmann::json& method) {
+    nlohmann::json document{
+        {"spectrum", {{"wavelengths_nm", {460, 530, 570, 640, 800}}, {"colour", "cie"}}},
+        {"image", {{"width", 32}, {"height", 18}}},
+        {"method", method}};
+    document["method"]["scattering_orders"] = 1;
+    return read_scene(document);
+  };
+  const Scene coarse =
+      scene_by({{"name", "nishita"}, {"view_samples", 6}, {"light_samples", 3}});
+  const Scene exact = scene_by({{"name", "raymarch"}, {"view_nodes", 32}});
+  std::vector<int> pixels(32 * 18);
+  std::iota(pixels.begin(), pixels.end(), 0);
+  const Reference reference =
+      make_reference(device(), exact, pixel_directions(exact, pixels), {}, "");
+  const ChartPoint charted =
+      measure_point(device(), exact, reference, "nishita", coarse.method.options, {}, {});
+  const double compared = compare(render_pair(device(), coarse, exact)).measure.error;
+  EXPECT_GT(compared, 0.02);
+  EXPECT_NEAR(charted.error.measure.error, compared, 1e-3 * compared);
 }
 
 }  // namespace

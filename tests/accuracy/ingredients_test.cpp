@@ -8,6 +8,7 @@
 #include "engine/accuracy/without_wavelength.h"
 #include "engine/scene/document.h"
 #include "tests/device.h"
+#include "tests/surface/testing.h"
 
 namespace cyanometer {
 namespace {
@@ -88,6 +89,44 @@ TEST(Explain, ASunAsNearIsAsBrightOverAFlatGround) {
   auto parallel =
       explained({{"sun", {{"elevation_deg", 60}}}, {"method", {{"scattering_orders", 1}}}});
   EXPECT_LT(found.at("curvature").error, 2 * parallel.at("curvature").error + 0.02);
+}
+
+/// Of ground seen from 20 km above it.
+double worth_of_ground(const json& planet) {
+  return explained(
+             {{"planet", planet},
+              {"sun", {{"elevation_deg", 50}, {"azimuth_deg", 180}}},
+              {"camera", {{"altitude_km", 20}, {"pitch_deg", -40}, {"heading_deg", 180}}},
+              {"atmosphere", {{"constituents", {{"aerosol", nullptr}, {"ozone", nullptr}}}}},
+              {"method", {{"scattering_orders", 1}}}})
+      .at("ground")
+      .error;
+}
+
+json world(double albedo, const json& more) {
+  json surface{{"type", "procedural"}};
+  for (const char* matter : {"sea", "plants", "sand", "rock", "ice"}) surface[matter] = albedo;
+  surface.update(more);
+  return {{"surface", surface}};
+}
+
+TEST(Explain, GroundOfOneAlbedoIsWorthTheSameByAnyWay) {
+  const double uniform = worth_of_ground({{"ground_albedo", 0.3}});
+  EXPECT_GT(uniform, 0.2);
+  EXPECT_NEAR(worth_of_ground(world(0.3, {{"sea_fraction", 0}})), uniform, 0.02 * uniform);
+  surface_testing::Maps maps;
+  maps.write("grey.exr", surface_testing::grey_map(0.3));
+  EXPECT_NEAR(worth_of_ground({{"surface", {{"type", "map"}, {"albedo", "grey.exr"}}}}),
+              uniform, 0.02 * uniform);
+}
+
+TEST(Explain, ASeaIsWorthWhatItMirrors) {
+  const json sea{{"sea_fraction", 1}, {"ice_latitude_deg", 90}};
+  EXPECT_GT(worth_of_ground(world(0, sea)), 0.05);
+}
+
+TEST(Explain, BlackGroundIsWorthNothingAndItsHeightsStay) {
+  EXPECT_LT(worth_of_ground(world(0, {{"sea_fraction", 0}, {"relief_km", 15}})), 1e-6);
 }
 
 TEST(Explain, GivenWavelengthsOfAColourAreLeftOutByPlace) {

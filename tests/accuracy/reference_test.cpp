@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "engine/accuracy/error.h"
 #include "engine/scene/document.h"
 #include "tests/accuracy/temporary_folder.h"
 #include "tests/device.h"
@@ -35,6 +36,17 @@ TEST(Reference, IsTwoHalvesWithNothingInCommonThatGetCloserWithTheWalks) {
   EXPECT_NE(many.halves[0], many.halves[1]);
   // 16 times the walks are a quarter of the noise; that itself is known to a third.
   EXPECT_LT(many.noise, few.noise / 2);
+}
+
+TEST(Reference, SharesNoWalksWithThePathThatIsHeldAgainstIt) {
+  Reference few = make_reference(device(), green_scene(), {64, 1e-9, 256}, "");
+  Plan plan;
+  plan.method = "path";
+  plan.wavelengths_nm = {550};
+  plan.options = {{"samples_per_pixel", 256}, {"seed", 0}};
+  auto seen = device().radiance(green_scene(), few.directions, false, plan).relative;
+  const double apart = measure_error(few.halves[0], few.halves[1]).error;
+  for (const auto& half : few.halves) EXPECT_GT(measure_error(seen, half).error, apart / 2);
 }
 
 TEST(Reference, StopsWhenItIsGoodEnough) {

@@ -214,6 +214,14 @@ TEST(Command, ChartWritesItsThreeFilesAndGoesOnWhereItWas) {
   EXPECT_EQ(read_file(folder / "chart" / "chart.json"), document);
 }
 
+TEST(Command, StabilityRefusesToTryAutoOnRandomScenes) {
+  TemporaryFolder folder;
+  Program run({"stability", "--random", "1", "--method", "auto", "-o", folder / "failures"});
+  EXPECT_EQ(run.wait(), 2);
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("--method auto"));
+  EXPECT_FALSE(fs::exists(folder / "failures"));
+}
+
 TEST(Command, RenderGivesWhatTheServerGives) {
   Program run({"render", "-", "-o", "-"}, small_scene().dump());
   EXPECT_EQ(run.wait(), 0) << run.err();

@@ -1,6 +1,7 @@
 // Scenes in which the stability suite found a method to break: each stays mended.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -28,7 +29,7 @@ const StabilityRow& row(int number) {
 /// A radiance that is not finite throws.
 double measured(const char* method, int number, double trigger) {
   Trial asked = trial(method);
-  return row(number).measure(asked, trigger)->value;
+  return std::ranges::max(row(number).measure(asked, trigger), {}, &Measured::value).value;
 }
 
 TEST(FoundScenes, TheHorizonSeenFromTheGroundItselfIsFinite) {
@@ -90,8 +91,8 @@ TEST(FoundScenes, MomentsHaveNoSeamInTheGroundNextToTheHorizon) {
 
 TEST(FoundScenes, AutoSaysHowMuchLightIsLostInThickAir) {
   Trial asked = trial("auto");
-  double lost = row(12).measure(asked, 3)->value;
-  EXPECT_LE(lost, std::max(row(12).bound, row(12).stated_errors * asked.stated()));
+  for (const Measured& lost : row(12).measure(asked, 3))
+    EXPECT_LE(lost.value, row(12).allowed(lost.stated));
 }
 
 TEST(FoundScenes, RoundingDoesNotDecideWhatTheEdgeOfTheAirShows) {
@@ -143,8 +144,7 @@ TEST(FoundScenes, CloudsAreSeenToWhereTheirLightComesFrom) {
         {"profile", {{"type", "tent"}, {"centre_km", 3}, {"half_width_km", 1}}},
         {"phase", {{"type", "henyey_greenstein"}, {"g", 0.8}}}};
     Trial asked = trial("raymarch");
-    EXPECT_LT(asked.error(scene, fan({-90, -30, -8}, {0, 90, 180}))->measure.error, 3e-3)
-        << depth;
+    EXPECT_LT(asked.error(scene, fan({-90, -30, -8}, {0, 90, 180}))->value, 3e-3) << depth;
   }
 }
 

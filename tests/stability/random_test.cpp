@@ -5,6 +5,7 @@
 
 #include "engine/stability/any_scene.h"
 #include "engine/stability/random_trials.h"
+#include "tests/device.h"
 
 namespace cyanometer {
 namespace {
@@ -19,6 +20,31 @@ void expect_sound(Engine& engine, std::uint64_t seed, const RandomTrialSettings&
     const double least = jump <= 1 ? jump : trial.at("jumps_at_finest").at(method);
     EXPECT_LE(least, 1) << method << ": " << trial;
   }
+}
+
+nlohmann::json trial_of(int seed, const std::vector<std::string>& methods) {
+  return {{"seed", seed},
+          {"settings", settings_document({.methods = methods})},
+          {"failures", nlohmann::json::array()},
+          {"refusals", nlohmann::json::array()}};
+}
+
+TEST(RandomReport, CountsForEachMethodTheScenesThatItWasTriedOn) {
+  const std::string report = random_report(
+      {trial_of(0, {"raymarch"}), trial_of(1, {"raymarch", "path"}), trial_of(2, {})});
+  EXPECT_NE(report.find("| `raymarch` | 3 | 0 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| `path` | 2 | 0 |"), std::string::npos) << report;
+  EXPECT_NE(report.find("| `moments` | 1 | 0 |"), std::string::npos) << report;
+}
+
+TEST(RandomScenes, SayWhatWasTriedOnThem) {
+  const RandomTrialSettings asked{.methods = {"raymarch"}};
+  const nlohmann::json trial = random_trial(device(), 0, asked);
+  EXPECT_EQ(trial.at("settings"), settings_document(asked));
+  EXPECT_EQ(trial.at("settings").at("methods"), nlohmann::json{"raymarch"});
+  EXPECT_EQ(settings_document({}).at("methods").size(), methods().size());
+  EXPECT_NE(settings_document({}), settings_document({.nudge = true}));
+  EXPECT_NE(settings_document({}), settings_document({.usual_options = true}));
 }
 
 /// The kernels of the scenes that are air and haze serve all of these, where enough are kept.

@@ -129,6 +129,77 @@ TEST(Stability, TheTableAndThePictureSayIt) {
   EXPECT_NE(picture.find("a device"), std::string::npos);
 }
 
+StabilityReport noisy_findings() {
+  StabilityReport report{"a device", "1.0", {}};
+  for (double noise : {0.01, 0.08, 0.03})
+    report.points.push_back({.row = 13, .method = "path", .trigger = 0.9, .noise = noise});
+  report.points.push_back(
+      {.row = 14, .method = "auto", .trigger = 0.9, .noise = 0.08, .stated = 0.05});
+  return report;
+}
+
+TEST(Stability, ACellThatChanceMayHideSaysHowMuchAndNotThatItHolds) {
+  EXPECT_EQ(cell_of(noisy_findings(), 13, "path").noise, 0.08);
+  EXPECT_EQ(cell_of(noisy_findings(), 14, "auto").noise, 0) << "twice what it states";
+  EXPECT_NE(stability_table(noisy_findings()).find("| noise 8 % |"), std::string::npos);
+  const std::string picture = stability_svg(noisy_findings()), holds = "<rect class=\"holds\"";
+  EXPECT_NE(picture.find(">noise 8 %<"), std::string::npos);
+  ASSERT_NE(picture.find(holds), std::string::npos);
+  EXPECT_EQ(picture.find(holds), picture.rfind(holds)) << "that of row 14 alone";
+}
+
+/// A row that is measured as it is told, not by the method.
+StabilityPoint judged(const std::vector<Measured>& found) {
+  StabilityRow row;
+  row.number = 13;
+  row.bound = 0.02;
+  row.stated_errors = 2;
+  row.measure = [&](Trial&, double) { return found; };
+  return measure_point(device(), row, "auto", 0, {});
+}
+
+Measured told(double value, double stated) {
+  Measured quantity = value;
+  quantity.stated = stated;
+  return quantity;
+}
+
+TEST(Stability, AFailureIsNotExcusedByWhatIsStatedElsewhere) {
+  const StabilityPoint excused = judged({told(0.05, 0.03), told(0.01, 0)});
+  EXPECT_EQ(excused.outcome, Outcome::holds);
+  EXPECT_EQ(excused.value, 0.05);
+  const StabilityPoint failed = judged({told(0.01, 0.3), told(0.05, 0.01)});
+  EXPECT_EQ(failed.outcome, Outcome::degrades);
+  EXPECT_EQ(failed.value, 0.05);
+  EXPECT_EQ(failed.stated, 0.01);
+  const StabilityPoint smaller = judged({told(0.5, 0.3), told(0.05, 0.01)});
+  EXPECT_EQ(smaller.outcome, Outcome::degrades) << "the one that fails, not the larger one";
+  EXPECT_EQ(judged({}).outcome, Outcome::reference);
+}
+
+TEST(Stability, NoiseAddsInQuadratureAndIsKept) {
+  EXPECT_DOUBLE_EQ(together({3, 4}), 5);
+  const Measured gap = apart(1, 0.5, 0.2);
+  EXPECT_DOUBLE_EQ(gap.value, 0.3);
+  EXPECT_DOUBLE_EQ(gap.noise, 0.2);
+  EXPECT_EQ(apart(1, 0.9, 0.2).value, 0);
+  EXPECT_DOUBLE_EQ(larger(gap, {0.4, 0.01}).noise, 0.2);
+  EXPECT_DOUBLE_EQ(larger(gap, {0.4, 0.01}).value, 0.4);
+}
+
+TEST(Stability, AHueThatIsOffIsAnErrorAndABrightnessIsNone) {
+  const Watch watch;
+  Trial asked(device(), "raymarch", {}, 1 << 15, watch);
+  const std::vector<Direction> zenith{{90, 0}, {86, 0}, {86, 120}};
+  const nlohmann::json scene = changed(plain_scene(), {{"sun", {{"elevation_deg", 10}}}});
+  EXPECT_LT(asked.error_of_hue(scene, zenith)->value, 1e-4);
+  Trial coarse(device(), "nishita", {}, 1 << 15, watch);
+  const Measured hue = *coarse.error_of_hue(scene, zenith),
+                 light = *coarse.error(scene, zenith);
+  EXPECT_GT(hue.value, 1e-3);
+  EXPECT_LT(hue.value, light.value);
+}
+
 TEST(Stability, APointIsReadBackAsItWasWritten) {
   StabilityPoint point{.row = 7,
                        .method = "auto",
@@ -136,6 +207,7 @@ TEST(Stability, APointIsReadBackAsItWasWritten) {
                        .outcome = Outcome::refuses,
                        .value = 0.25,
                        .least = 0.125,
+                       .noise = 0.0625,
                        .stated = 0.5,
                        .note = "too many"};
   StabilityPoint again = stability_point_from(point_document(point));

@@ -141,7 +141,7 @@ const MethodDescription& hillaire_description() {
             "in clear air, 9 to 22 % in haze, smoke and at sunset, a quarter under thick "
             "clouds, a third to a half from a sun of -9 deg on, at a limb and at an orbital "
             "sunrise.",
-            {3, 7, 9, 12, 16, 21, 22}},
+            {3, 7, 9, 11, 12, 16, 21, 22}},
            {"Light that went once sideways and once straight on is missing around the "
             "sun, and taken from half of each forward peak instead.",
             {3, 13, 14},

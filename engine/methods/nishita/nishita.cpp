@@ -139,7 +139,7 @@ const MethodDescription& nishita_description() {
                   [](const SceneTraits& scene) { return scene.scattering_orders != 1; }},
                  {"Few samples lose thin layers near the ground: a yellow horizon, and in "
                   "dense haze nearly all light.",
-                  {2, 3, 6, 13, 15, 18, 20, 22}},
+                  {2, 3, 6, 11, 13, 15, 18, 20, 22}},
                  {"The planet's shadow on a view ray converges slowly.",
                   {7, 9},
                   [](const SceneTraits& scene) { return scene.sun_deg < 2; }},
