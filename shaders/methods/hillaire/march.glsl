@@ -117,6 +117,7 @@ Panels panels_along(SunlitRay ray, Shadow shadow, int samples, Real scale_height
 int number_of(Panels panels) { return panels.before + panels.in_shadow + panels.behind; }
 
 struct Panel {
+  Real first_km;     // distance at which it begins
   Vec4 distance_km;  // of its four nodes
   Vec4 stretch_km;   // kilometres to the panel's share of 1, there
   bool lit;
@@ -138,6 +139,7 @@ Panel panel_of(Panels panels, int i) {
   }
   Vec4 nodes = Vec4(gauss4_node(0), gauss4_node(1), gauss4_node(2), gauss4_node(3));
   Vec4 u = edge + size * nodes;
+  panel.first_km = max(panels.centre_km + panels.bend_km * precise_sinh(Vec4(edge)).x, Real(0.0));
   panel.distance_km = max(panels.centre_km + panels.bend_km * precise_sinh(u), Vec4(0.0));
   panel.stretch_km = (panels.bend_km * size) * cosh(u);
   panel.lit = into_shadow < 0 || behind >= 0;
@@ -149,7 +151,7 @@ Vec4 gauss4_weights() {
 }
 
 // The integrals from 0 to each node of the cubic through the values at the four nodes; of values that vary
-// by decades between them it may be off, but never below 0.
+// by decades between them it may be off, and even below 0.
 Vec4 integral_to_nodes(Vec4 values) {
   return Vec4(
       dot(values, Vec4(0.0869637112843634, -0.0266041800849988,
@@ -162,6 +164,18 @@ Vec4 integral_to_nodes(Vec4 values) {
                        0.3526767575162709, 0.0869637112843633)));
 }
 
+// What the integrals are at the least, of a density that goes one way from node to node: where nodes are far
+// apart, as in air of which a hair's breadth hides the rest, the cubic may leave a node in the light.
+Vec4 least_to_nodes(Panel panel, Vec4 density) {
+  Vec4 t = panel.distance_km;
+  Vec4 least;
+  least.x = (t.x - panel.first_km) * density.x;
+  least.y = least.x + (t.y - t.x) * min(density.x, density.y);
+  least.z = least.y + (t.z - t.y) * min(density.y, density.z);
+  least.w = least.z + (t.w - t.z) * min(density.z, density.w);
+  return least;
+}
+
 // Goes through a panel: densities of every constituent at its nodes, and its columns from the ray's start
 // to them; `column` goes on to the panel's end.
 void pass_panel(SunlitRay ray, Panel panel, INOUT_ARRAY(Real, column, MEDIA_SIZE),
@@ -172,7 +186,7 @@ void pass_panel(SunlitRay ray, Panel panel, INOUT_ARRAY(Real, column, MEDIA_SIZE
   }
   UNROLL for (int c = 0; c < MEDIA; ++c) {
     Vec4 rate_km = density[c] * panel.stretch_km;
-    column_to[c] = column[c] + max(integral_to_nodes(rate_km), Vec4(0.0));
+    column_to[c] = column[c] + max(integral_to_nodes(rate_km), least_to_nodes(panel, density[c]));
     column[c] += dot(rate_km, gauss4_weights());
   }
 }

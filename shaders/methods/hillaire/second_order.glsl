@@ -19,7 +19,15 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
   Vec4 density[MEDIA_SIZE];
   Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS_SIZE];
+  Vec4 scattered_once[GROUPS_SIZE];
+  Vec4 scattered_share[GROUPS_SIZE];
+  Vec4 absorbed_share[GROUPS_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    scattered_once[group] = Vec4(0.0);
+    scattered_share[group] = Vec4(0.0);
+    absorbed_share[group] = Vec4(0.0);
+  }
   Panels panels = panels_along(ray, shadow_over(ray), samples, scale_height_km);
   int count = number_of(panels);
   for (int p = 0; p < count; ++p) {
@@ -36,9 +44,10 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
           scattered = scattered + scattering(c, group) * density[c][i];
           absorbed = absorbed + (extinction(c, group) - scattering(c, group)) * density[c][i];
         }
-        lost[group] = lost[group] + absorbed * seen;
+        scattered_share[group] = scattered_share[group] + scattered * seen;
+        absorbed_share[group] = absorbed_share[group] + absorbed * seen;
         if (panel.lit) {
-          radiance[group] = radiance[group] + scattered * seen * light[group] / (4.0 * PI);
+          scattered_once[group] = scattered_once[group] + scattered * seen * light[group] / (4.0 * PI);
         }
       }
     }
@@ -46,7 +55,11 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
   Vec4 transmittance[GROUPS_SIZE];
   UNROLL for (int group = 0; group < GROUPS; ++group) {
     transmittance[group] = transmittance_of(column, group);
-    lost[group] = lost[group] + transmittance[group];
+    // Nodes too far apart for the air may find more light than the ray loses.
+    Vec4 found = scattered_share[group] + absorbed_share[group];
+    Vec4 kept = min((1.0 - transmittance[group]) / max(found, Vec4(1e-30)), Vec4(1.0));
+    radiance[group] = radiance[group] + kept * scattered_once[group];
+    lost[group] = lost[group] + kept * absorbed_share[group] + transmittance[group];
   }
   if (!ray.meets_ground) return;
   Real mu_sun = sun_cosine_after(ray, 0.0, ray.length_km);
