@@ -223,6 +223,7 @@ export class Day {
         this.view.present(bitmap, facts);
         this.#point(last, true);
       }, signal), (error) => this.#say(inWords(error)));
+      this.#say('');
     } catch (error) {
       this.#say(inWords(error));
     }
