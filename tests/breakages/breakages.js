@@ -390,7 +390,7 @@ const BY_SENTENCE = {
   'what is on is seen in forced colours': [
     ['tabs', 'style.css', ', [role=tab][aria-selected=true], .segmented button[aria-pressed=true]) {\n    forced', ', .segmented button[aria-pressed=true]) {\n    forced'],
     ['choices of a few', 'style.css', ', .segmented button[aria-pressed=true]) {\n    forced', ') {\n    forced'],
-    ['switches', 'style.css', '#panel, .card, .switch, [role=tablist]', '#panel, .card, [role=tablist]'],
+    ['switches', 'style.css', '.chip, .switch, [role=tablist]', '.chip, [role=tablist]'],
   ],
   'it is accessible in the dark': [
     ['contrast', 'style.css', '--quiet: #aab5c1;', '--quiet: #47525e;'],

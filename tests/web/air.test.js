@@ -296,6 +296,7 @@ visit('a time-lapse that waits for a busy daemon is stopped at once', async (per
   await page.getByRole('button', { name: 'Stop' }).click();
   await play.waitFor();
   assert.equal(await busy.count(), 0);
+  await person.rest();
   const first = await person.look();
   await play.click();
   await busy.waitFor();
