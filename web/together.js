@@ -55,8 +55,8 @@ export function linkedVisibility(path, state, optics, name) {
 const TIE_HELP = 'Warm air reaches higher: the scale height is proportional to the temperature';
 
 /**
- * What an edit brings along: `companions(path, value, node)`, `node` describing the member. A switch ties a gas's scale height to its
- * temperature: H = kT / (m g), so both go by the same factor.
+ * What an edit brings along: `companions(path, value, node)`, `node` describing the member. A switch ties a
+ * gas's scale height to its temperature: H = kT / (m g), so both go by the same factor.
  */
 export class Ties {
   #tied = new Set();  // paths of constituents
