@@ -6,7 +6,8 @@ import { angles, direction, fromPixel, horizonDipDeg, toPixel, wrapDegrees } fro
 const SUN_GRIP_PX = { mouse: 18, touch: 34, pen: 24 };
 const STILL_PX = 5;
 const WIDEST = { perspective: 150, fisheye: 360 };
-const NARROWEST_DEG = 0.1;
+const NARROWEST_DEG = 1;
+const FLATTEST_DEG = 179;  // a perspective of 180 would be infinitely wide
 const LOWEST_KM = 0.001;
 const HIGHEST_KM = 1e6;
 
@@ -129,22 +130,27 @@ export class Camera {
 
   /** Puts the sun at angles. */
   placeSun(elevationDeg, azimuthDeg) {
-    this.state.edit({ 'sun.elevation_deg': degrees(clamp(elevationDeg, -90, 90)),
-                      'sun.azimuth_deg': degrees(wrapDegrees(azimuthDeg)) });
+    this.#edit({ 'sun.elevation_deg': degrees(clamp(elevationDeg, -90, 90)),
+                 'sun.azimuth_deg': degrees(wrapDegrees(azimuthDeg)) });
   }
 
   // ---- Moves --------------------------------------------------------------------------------
 
+  // A move starts from where things are, which must be known.
+  #edit(members) {
+    if (this.state.isKnown()) this.state.edit(members);
+  }
+
   look(headingDeg, pitchDeg) {
     const { heading_deg: heading = 0, pitch_deg: pitch = 0 } = this.#camera;
-    this.state.edit({ 'camera.heading_deg': degrees(wrapDegrees(heading + headingDeg)),
-                      'camera.pitch_deg': degrees(clamp(pitch + pitchDeg, -90, 90)) });
+    this.#edit({ 'camera.heading_deg': degrees(wrapDegrees(heading + headingDeg)),
+                 'camera.pitch_deg': degrees(clamp(pitch + pitchDeg, -90, 90)) });
   }
 
   zoom(factor) {
     const widest = WIDEST[this.#projection];
     if (!widest) return;
-    this.state.edit({ 'camera.fov_deg': tidy(clamp(this.#fovDeg * factor, NARROWEST_DEG, widest)) });
+    this.#edit({ 'camera.fov_deg': tidy(clamp(this.#fovDeg * factor, NARROWEST_DEG, widest)) });
   }
 
   /** What an edit of `path` brings along: who climbs keeps the horizon where it is in the picture. */
@@ -156,11 +162,16 @@ export class Camera {
     return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };
   }
 
+  /** The most that a slider of `path` reaches here. */
+  most(path) {
+    return path === 'camera.fov_deg' && this.#projection === 'perspective' ? FLATTEST_DEG : Infinity;
+  }
+
   climb(factor) {
     const altitude = this.#camera.altitude_km ?? 0;
     const next = clamp(Math.max(altitude, LOWEST_KM) * factor, LOWEST_KM, HIGHEST_KM);
     const edit = { 'camera.altitude_km': tidy(next, 4) };
-    this.state.edit({ ...edit, ...this.companions('camera.altitude_km', edit['camera.altitude_km']) });
+    this.#edit({ ...edit, ...this.companions('camera.altitude_km', edit['camera.altitude_km']) });
   }
 
   #raiseSun(byDeg) {

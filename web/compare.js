@@ -13,7 +13,8 @@ import { Wipe } from './wipe.js';
 const FIGURES_WIDTH = 384;
 const LOOK_MS = 250;
 
-export class Compare {
+/** Event: `chosen` when there is something to compare with. */
+export class Compare extends EventTarget {
   #pinned;
   #settling;
   #exposure;
@@ -21,6 +22,7 @@ export class Compare {
   #pictured = new Task();
 
   constructor({ state, view, overlay, methods, handle, otherCanvas }) {
+    super();
     Object.assign(this, { state, view, overlay });
     this.other = new View(otherCanvas, () => this.#otherScene());
     this.other.hold();
@@ -64,6 +66,7 @@ export class Compare {
     this.#asked.stop();
     this.#pictured.stop();
     clearTimeout(this.#settling);
+    if (this.against.value) this.dispatchEvent(new Event('chosen'));
     this.#refresh();
   }
 
@@ -73,7 +76,7 @@ export class Compare {
     const { image } = scene;
     const chosen = this.against.value === 'pinned'
       ? { ...this.#pinned, camera: this.#cameraFor(this.#pinned), image }
-      : { ...scene, method: { name: this.against.value } };
+      : { ...scene, method: { name: this.against.value, scattering_orders: scene.method?.scattering_orders } };
     if (this.#exposure === undefined) return chosen;
     return { ...chosen, image: { ...image, exposure_ev: this.#exposure } };
   }

@@ -3,7 +3,7 @@
 import { curvesOf, Optics } from './curves.js';
 import { h, icon } from './dom.js';
 import { switchBox, words } from './editors.js';
-import { equal, get } from './paths.js';
+import { equal, flatten, get } from './paths.js';
 import { linkedVisibility, Ties } from './together.js';
 
 const ROOT = 'atmosphere.constituents';
@@ -44,7 +44,7 @@ export class Constituents {
     this.controls = controls;
     this.optics = new Optics(state);
     this.optics.addEventListener('curves', () => this.#live.forEach((one) => one.refresh()));
-    this.ties = new Ties(state);
+    this.ties = new Ties(state, schema);
     this.list = h('div', { className: 'cards' });
     this.element = h('div', {}, this.list, this.#addMenu());
     this.refresh();
@@ -54,13 +54,15 @@ export class Constituents {
   refresh() {
     this.#look();
     const cards = this.#cards();
-    const shape = cards.map(([name, value, on]) => [name, on, value.type, Object.keys(value)]);
+    const shape = cards.map(([name, value, on]) => [name, on, ...shapeOf(value)]);
     if (equal(shape, this.#drawn)) return;
     this.#drawn = shape;
     const open = new Set([...this.list.querySelectorAll('details[open]')]
       .map((details) => details.parentElement.dataset.name));
+    const focus = focusIn(this.list);
     this.#live = [];
     this.list.replaceChildren(...cards.map((card) => this.#card(...card, open)));
+    focus();
     this.#live.forEach((one) => one.refresh());
   }
 
@@ -120,8 +122,7 @@ export class Constituents {
     if ('optical_depth' in value) {
       return [this.#keep(linkedVisibility(`${path}.optical_depth`, this.state, this.optics, name))];
     }
-    const warm = 'temperature_k' in value && value.profile?.type === 'exponential';
-    return warm ? [this.ties.row(path)] : [];
+    return hasTie(value) ? [this.ties.row(path)] : [];
   }
   #keep(live) {
     this.#live.push(live);
@@ -157,7 +158,9 @@ export class Constituents {
     } else {
       const kept = this.#kept.get(name);
       this.#kept.delete(name);
-      this.state.edit({ [path]: kept?.patch ?? undefined });
+      // Back to what is inherited, and from there by the changes that there were.
+      const changes = flatten(kept?.patch ?? {}, `${path}.`);
+      this.state.edit({ [path]: undefined, ...Object.fromEntries(changes) });
     }
   }
 
@@ -178,6 +181,22 @@ export class Constituents {
       Object.keys(TEMPLATES).map((template) => h('button', {
         type: 'button', className: 'chip', onclick: () => add(template) }, words(template))));
   }
+}
+
+// What a card's controls depend on. The order of members is of no account: an edited one goes to the end.
+const shapeOf = (value) =>
+  [value.type, Object.keys(value).sort(), hasTie(value), typeof value.optical_depth?.at_nm];
+
+const hasTie = (value) => 'temperature_k' in value && value.profile?.type === 'exponential';
+
+// Gives the focus, where it is in `list`, to what stands for the same in the same card then.
+function focusIn(list) {
+  const was = document.activeElement;
+  const card = list.contains(was) && was.closest('.card').dataset.name;
+  if (!card) return () => {};
+  const same = (one) => ['tagName', 'type', 'ariaLabel', 'textContent'].every((name) => one[name] === was[name]);
+  return () => [...list.querySelectorAll(`[data-name=${card}] :is(summary, input, select, button, textarea)`)]
+    .find(same)?.focus({ preventScroll: true });
 }
 
 /** [{title, names}]: the groups of alternative members, named after what is chosen first. */

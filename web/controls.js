@@ -12,13 +12,15 @@ export class Controls {
   constructor(state, schema) {
     this.state = state;
     this.schema = schema;
-    this.companions = () => ({});  // edits that an edit of a path brings along
+    this.companions = () => ({});  // edits that an edit of a path, whose node is given, brings along
+    this.most = () => Infinity;  // the most that a slider of a path reaches in this scene
   }
 
   /** A control for the member at `path`, described by `node`. */
   make(path, node) {
-    const set = (value) => this.state.edit({ [path]: value, ...this.companions(path, value) });
-    const control = new Control(this.state, this.schema, path, this.schema.follow(node), set);
+    const set = (value) => this.state.edit({ [path]: value, ...this.companions(path, value, node) });
+    const most = () => this.most(path);
+    const control = new Control(this.state, this.schema, path, this.schema.follow(node), { set, most });
     this.#all.add(control);
     return control.element;
   }
@@ -30,14 +32,14 @@ export class Controls {
     }
   }
 
-  /** Shows a message beside the control of `path` or the nearest one around it; false if none. */
+  /** Shows a message beside the control of `path` or the nearest one around it; true where that is seen. */
   complain(path, message) {
     this.forgive();
     const nearest = [...this.#all]
       .filter((one) => one.element.isConnected && (path + '.').startsWith(one.path + '.'))
       .sort((a, b) => b.path.length - a.path.length)[0];
     nearest?.complain(message);
-    return nearest !== undefined;
+    return nearest?.element.checkVisibility() ?? false;
   }
   forgive() {
     for (const control of this.#all) control.complain('');
@@ -45,7 +47,7 @@ export class Controls {
 }
 
 class Control {
-  constructor(state, schema, path, node, set) {
+  constructor(state, schema, path, node, { set, most }) {
     this.state = state;
     this.path = path;
     const id = `control-${++count}`;
@@ -60,6 +62,7 @@ class Control {
       label: title,
       get: () => state.value(path) ?? node.default,
       set,
+      most,
       complain: (message) => this.complain(message),
     });
     this.element = h('div', { className: 'control', 'data-path': path },
@@ -86,7 +89,11 @@ class Control {
     this.problem.textContent = message;
     this.problem.hidden = !message;
     this.element.classList.toggle('refused', Boolean(message));
-    if (message) this.element.closest('details:not([open])')?.setAttribute('open', '');
+    if (message) this.#unfold();
+  }
+  #unfold() {
+    const folded = () => this.element.closest('details:not([open])');
+    for (let fold = folded(); fold; fold = folded()) fold.open = true;
   }
 
   refresh() {

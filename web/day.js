@@ -23,6 +23,13 @@ const eastOrWest = (longitude) =>
 
 const today = () => new Date().toISOString().slice(0, 10);
 
+/** A moment by a clock `offset` minutes ahead of UTC, as ISO text without it; undefined where `time` is no time. */
+function clockText(time, offset) {
+  const local = new Date(Date.parse(time) + offset * MINUTE_MS);
+  const text = Number.isNaN(local.getTime()) ? '' : local.toISOString();
+  return /^\d/.test(text) ? text : undefined;  // not thousands of years from now
+}
+
 /** The scene without what says where its sun is: frames say that themselves. */
 function withoutSun({ sun, ...scene }) {
   const { elevation_deg, azimuth_deg, place, ...light } = sun ?? {};
@@ -30,8 +37,11 @@ function withoutSun({ sun, ...scene }) {
 }
 
 export class Day {
-  #timeline;  // of the day on the strip
+  #timeline;  // of the day on the strip, once that is known
+  #dayKey = '';  // which day that is
   #key = '';  // what the strip shows
+  #known;  // resolves when its day is known, or cannot be
+  #unfinished = false;  // of its slices some are missing
   #asked = new Task();
   #lapse = new Task();
   #playing = false;  // from the press on, before the lapse begins and until its last word
@@ -39,7 +49,7 @@ export class Day {
   /** `idle()` resolves when the frame on screen does not need the daemon; `fold()` holds this. */
   constructor({ state, view, idle, fold }) {
     Object.assign(this, { state, view, idle, fold });
-    this.strip = new DayStrip((share) => this.#choose(share), (error) => this.#say(inWords(error)));
+    this.strip = new DayStrip((share) => this.#choose(share), (text) => this.#say(text));
     this.now = h('output', { className: 'strip-now' });
     this.play = h('button', { type: 'button', className: 'chip with-icon', onclick: () => this.#press() });
     this.words = h('p', { className: 'help', role: 'status' });
@@ -80,11 +90,13 @@ export class Day {
   // The scene's, or where somebody would start from: noon of today in the first place.
   #place() {
     const { latitude_deg: latitude, longitude_deg: longitude, time } = this.state.document().sun?.place ?? {};
-    const place = { latitude_deg: latitude ?? PLACES[0][1], longitude_deg: eastOrWest(longitude ?? PLACES[0][2]) };
+    const known = (angle, usual) => (Number.isFinite(angle) ? angle : usual);  // a link may say anything
+    const place = { latitude_deg: known(latitude, PLACES[0][1]),
+                    longitude_deg: eastOrWest(known(longitude, PLACES[0][2])) };
     const offset = offsetMinutes(place.longitude_deg);
-    const moment = new Date(time ?? `${today()}T12:00:00${offsetText(offset)}`);
-    const local = new Date(moment.getTime() + offset * MINUTE_MS).toISOString();
-    return { ...place, offset, date: local.slice(0, 10), clock: local.slice(11, 19), set: time !== undefined };
+    const set = clockText(time, offset);
+    const local = set ?? `${today()}T12:00:00`;
+    return { ...place, offset, date: local.slice(0, 10), clock: local.slice(11, 19), set: set !== undefined };
   }
 
   // Sets the scene's place and time; the clock keeps its hour.
@@ -98,37 +110,54 @@ export class Day {
     return { latitude_deg, longitude_deg, time: this.#timeline.timeAt(share) };
   }
   #choose(share) {
-    this.state.edit({ 'sun.place': this.#placeAt(share) });
+    if (this.#timeline) this.state.edit({ 'sun.place': this.#placeAt(share) });
   }
 
   // ---- The strip ------------------------------------------------------------------------------
 
-  /** Looks whether the strip is seen and still shows the scene. */
-  async refresh() {
+  /** Looks whether the strip is seen and still shows the scene; resolves when it is known which day that is. */
+  refresh() {
     this.#show();
-    if (!this.fold().open || !this.element.checkVisibility()) return;
+    if (!this.fold().open || !this.element.checkVisibility()) return this.#known;
     const { latitude_deg, longitude_deg, date, offset } = this.#place();
     const asked = { latitude_deg, longitude_deg, date, utc_offset_min: offset };
     const { sun, method, ...rest } = this.state.document();
     const key = JSON.stringify([asked, rest]);
-    if (key === this.#key) return;
+    if (key === this.#key) return this.#known;
     this.#key = key;
+    const dayKey = JSON.stringify(asked);
+    if (dayKey !== this.#dayKey) this.#timeline = undefined;
+    this.#dayKey = dayKey;
+    this.#known = this.#ask(asked, key);
+    return this.#known;
+  }
+  async #ask(asked, key) {
+    this.#unfinished = true;
     try {
       const answer = await this.#asked.run((signal) => day(asked, signal), (error) => this.#say(inWords(error)));
       if (!answer) return;
-      this.#timeline = new Timeline(answer, offset);
+      this.#timeline = new Timeline(answer, asked.utc_offset_min);
       this.#say('');
       this.#show();
-      await this.idle();
-      if (key === this.#key) await this.#fill();
+      this.#fill(key);
     } catch (error) {
-      this.#key = '';
-      this.#say(inWords(error));
+      this.#refused(error);
     }
   }
-  #fill() {
-    return this.strip.fill(withoutSun(this.state.document()),
-                           (share) => ({ sun: { place: this.#placeAt(share) } }));
+  async #fill(key) {
+    await this.idle();
+    if (key !== this.#key || this.#playing) return;
+    try {
+      const done = await this.strip.fill(withoutSun(this.state.document()),
+                                         (share) => ({ sun: { place: this.#placeAt(share) } }));
+      if (done) this.#unfinished = false;
+    } catch (error) {
+      this.#refused(error);
+    }
+  }
+  #refused(error) {
+    this.#key = '';
+    this.#say(inWords(error));
   }
 
   #show() {
@@ -164,6 +193,7 @@ export class Day {
       if (this.#timeline) await this.#playOn();
     } finally {
       this.#playing = false;
+      if (this.#unfinished && this.#timeline) this.#fill(this.#key);  // the strip gave way to the lapse
     }
   }
 
@@ -188,10 +218,12 @@ export class Day {
       await this.#lapse.run((signal) => stream(scene, frames, async (blob, facts, at) => {
         const bitmap = await createImageBitmap(blob);
         if (signal.aborted) return bitmap.close();
+        if (!at) this.#say('');  // the daemon may have been busy
         last = shareAt(at);
         this.view.present(bitmap, facts);
         this.#point(last, true);
       }, signal), (error) => this.#say(inWords(error)));
+      this.#say('');
     } catch (error) {
       this.#say(inWords(error));
     }

@@ -1,7 +1,7 @@
 // The strip of a day: slices of this view as the daemon streams them, the sun's height over them, and
 // the moment as a slider.
 
-import { stream } from './api.js';
+import { inWords, stream } from './api.js';
 import { h, svg } from './dom.js';
 import { Task } from './task.js';
 
@@ -17,8 +17,8 @@ const METHOD = { max_error: 0.1, max_ms: 40 };
 export class DayStrip {
   #task = new Task();
 
-  constructor(onChoose, onWait) {
-    this.onWait = onWait;
+  constructor(onChoose, say) {
+    this.say = say;
     this.canvas = h('canvas', { width: SLICES * SLICE_PX.width, height: SLICE_PX.height });
     this.drawing = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: 'none',
                                 'aria-hidden': 'true' });
@@ -30,7 +30,7 @@ export class DayStrip {
       h('div', { className: 'strip' }, this.canvas, this.drawing, this.slider), this.marks);
   }
 
-  /** Fills it with slices of the scene, each with the patch of its moment. */
+  /** Fills it with slices of the scene, each with the patch of its moment; true where nothing stopped it. */
   fill(scene, patchAt) {
     const { channels, layers, ...look } = scene.image ?? {};
     const small = { ...scene, method: METHOD, camera: { ...scene.camera, ...VIEW },
@@ -38,10 +38,11 @@ export class DayStrip {
     const frames = Array.from({ length: SLICES }, (_, i) => patchAt((i + 0.5) / SLICES));
     return this.#task.run((signal) => stream(small, frames, async (blob, facts, at) => {
       const bitmap = await createImageBitmap(blob);
+      if (!at && !signal.aborted) this.say('');  // the daemon may have been busy
       if (!signal.aborted) this.#put(bitmap, at);
       this.canvas.dataset.slices = String(at + 1);
       bitmap.close();
-    }, signal), this.onWait);
+    }, signal).then(() => true), (error) => this.say(inWords(error)));
   }
   // A slice stands at its moment and fades in from the one before.
   #put(bitmap, at) {

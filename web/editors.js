@@ -1,6 +1,6 @@
 // An editor for each shape a schema node can have. An editor is `{ element, refresh() }`; it reads
-// and writes through a binding `{ label, get(), set(value), complain(text) }`, and knows neither
-// where its value lives nor what becomes of it.
+// and writes through a binding `{ label, get(), set(value), complain(text) }`, where a slider may not reach
+// its end also `most()`, and knows neither where its value lives nor what becomes of it.
 
 import { h } from './dom.js';
 import { format, parse, Scale, unitText, whyNoNumber } from './numbers.js';
@@ -21,12 +21,11 @@ export function editor(schema, node, binding) {
   if (form.type === 'boolean') return toggle(binding);
   if (form.type === 'number' || form.type === 'integer') return number(form, binding);
   if (form.type === 'array') return array(schema, form, binding);
-  if (isSampled(form)) return spectrumCurve(valueNode(form), binding);
+  if (schema.isCurve(form)) return spectrumCurve(valueNode(form), binding);
   if (form.type === 'object') return members(schema, form, binding);
   return text(binding);
 }
 
-const isSampled = (form) => form.properties?.wavelengths_nm && form.properties?.values;
 const valueNode = (form) => ({ 'x-slider': form['x-slider'], 'x-unit': form['x-unit'], minimum: form.minimum,
                                maximum: form.maximum, type: 'number' });
 
@@ -34,10 +33,11 @@ const valueNode = (form) => ({ 'x-slider': form['x-slider'], 'x-unit': form['x-u
 export function number(node, binding) {
   const scale = new Scale(node);
   const unit = unitText(node['x-unit']);
+  const most = () => binding.most?.() ?? Infinity;
   const slider = h('input', {
     type: 'range', min: 0, max: scale.positions, step: scale.logarithmic ? 1 : 'any',
     'aria-label': binding.label,
-    oninput: () => binding.set(scale.toValue(Math.round(slider.valueAsNumber))),
+    oninput: () => binding.set(Math.min(scale.toValue(Math.round(slider.valueAsNumber)), most())),
   });
   if (!scale.logarithmic) slider.step = 1;
   const typed = h('input', {
@@ -54,7 +54,8 @@ export function number(node, binding) {
       if (event.key !== 'ArrowUp' && event.key !== 'ArrowDown') return;
       event.preventDefault();
       typing.end();
-      step(slider, (event.shiftKey ? 10 : 1) * (event.key === 'ArrowUp' ? 1 : -1));
+      const steps = (event.shiftKey ? 10 : 1) * (event.key === 'ArrowUp' ? 1 : -1);
+      binding.set(Math.min(scale.stepped(binding.get(), steps), most()));
     },
     onfocus: () => typed.select(),
   });
@@ -81,11 +82,6 @@ function watchTyping(field) {
   field.addEventListener('input', () => { typing.now = true; });
   field.addEventListener('blur', typing.end);
   return typing;
-}
-
-function step(slider, distance) {
-  slider.valueAsNumber += distance;
-  slider.dispatchEvent(new Event('input'));
 }
 
 function choice(values, titles, binding) {

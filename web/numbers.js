@@ -38,6 +38,7 @@ export class Scale {
     const slider = node['x-slider'] ?? {};
     this.low = slider.minimum ?? node.minimum ?? 0;
     this.high = slider.maximum ?? node.maximum ?? 1;
+    this.allowed = [node.minimum ?? -Infinity, node.maximum ?? Infinity];
     this.integer = node.type === 'integer';
     this.logarithmic = slider.scale === 'log' && this.high > 0;
     // A logarithmic scale that starts at 0 shows eight decades, and 0 itself at its very left.
@@ -62,8 +63,24 @@ export class Scale {
     return this.#tidy(Number((this.low * (this.high / this.low) ** share).toPrecision(3)));
   }
 
+  /** `value` after so many steps, which may lead beyond the slider but not beyond what is allowed. */
+  stepped(value = this.low, steps) {
+    const [least, most] = this.allowed;
+    const next = this.logarithmic ? this.#byFactors(value, steps) : value + steps * this.step;
+    const whole = this.integer ? awayFrom(value, Math.round(next), steps) : Number(next.toPrecision(9));
+    return Math.min(most, Math.max(least, whole));
+  }
+  #byFactors(value, steps) {
+    const factor = (this.high / this.low) ** (steps / this.positions);
+    if (this.zero && value * factor < this.low) return steps > 0 ? this.low : 0;
+    return Number((value * factor).toPrecision(4));
+  }
+
   #tidy(value) {
     const inside = Math.min(this.high, Math.max(this.low, value));
     return this.integer ? Math.round(inside) : Number(inside.toPrecision(9));
   }
 }
+
+// A step of a whole number is one at least.
+const awayFrom = (value, next, steps) => (next === value ? value + Math.sign(steps) : next);

@@ -34,6 +34,7 @@ export class OwnPicture {
       this.modes.element, this.place, this.back);
     this.#putAway();
     this.#bindDrop(curtain);
+    compare.addEventListener('chosen', () => { if (this.#file) this.#putAway(); });
     state.addEventListener('change', () => {
       this.#task.stop();
       if (!this.#file) return;

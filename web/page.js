@@ -83,8 +83,9 @@ export class Page {
   #adjustPage(schema) {
     const { state, view, camera, controls, limits } = this;
     const constituents = new Constituents(state, schema, controls);
-    controls.companions = (path, value) =>
-      ({ ...constituents.ties.companions(path, value), ...camera.companions(path, value) });
+    controls.companions = (path, value, node) =>
+      ({ ...constituents.ties.companions(path, value, node), ...camera.companions(path, value) });
+    controls.most = (path) => camera.most(path);
     const options = new MethodOptions(this.#methods, state, controls, limits.element);
     this.#methodOptions = options;
     const fold = () => byId('adjust').querySelector('[data-group=day]');
@@ -92,6 +93,7 @@ export class Page {
     byId('adjust').replaceChildren(...buildFolds(schema, controls, MethodOptions.paths(this.#methods), {
       atmosphere: [constituents.element], method: [options.element], day: [day.element] }));
     fold().addEventListener('toggle', () => day.refresh());
+    byId('adjust').addEventListener('shown', () => day.refresh());
     for (const event of ['settle', 'resolve']) {
       state.addEventListener(event, () => {
         constituents.refresh();
@@ -138,7 +140,7 @@ export class Page {
     this.#planning?.abort();
     this.#planning = new AbortController();
     const { signal } = this.#planning;
-    const ask = (scene) => untilAnswered(() => plan(scene, signal), () => signal.throwIfAborted());
+    const ask = (scene) => untilAnswered(() => plan(scene, signal), () => {}, signal);
     try {
       if (!state.knowsBase()) {
         const { preset } = state;

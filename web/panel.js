@@ -6,7 +6,7 @@ const byId = (id) => document.getElementById(id);
 
 /**
  * Tabs and the fold. `select(id)` unfolds a tab and `showing(id)` says whether it is seen; elements
- * of tabs get `shown` and `hidden` events.
+ * of tabs get `shown` and `hidden` events, by the fold too.
  */
 export function bindPanel() {
   for (const [id, name] of [['undo', 'undo'], ['redo', 'redo'], ['show-help', 'help'],
@@ -14,16 +14,22 @@ export function bindPanel() {
     byId(id).append(icon(name));
   }
   const tabs = [...document.querySelectorAll('[role=tab]')];
+  let seen;
+  const tell = () => {
+    const page = byId('panel').hidden ? null : document.querySelector('[role=tabpanel]:not([hidden])');
+    if (page === seen) return;
+    seen?.dispatchEvent(new Event('hidden'));
+    seen = page;
+    seen?.dispatchEvent(new Event('shown'));
+  };
   const select = (tab) => {
     for (const other of tabs) {
       const chosen = other === tab;
       other.setAttribute('aria-selected', String(chosen));
       other.tabIndex = chosen ? 0 : -1;
-      const page = byId(other.getAttribute('aria-controls'));
-      if (page.hidden === !chosen) continue;
-      page.hidden = !chosen;
-      page.dispatchEvent(new Event(chosen ? 'shown' : 'hidden'));
+      byId(other.getAttribute('aria-controls')).hidden = !chosen;
     }
+    tell();
   };
   tabs.forEach((tab, i) => {
     tab.addEventListener('click', () => select(tab));
@@ -43,6 +49,7 @@ export function bindPanel() {
     byId('open').hidden = open;
     byId('open').setAttribute('aria-expanded', String(open));
     document.body.classList.toggle('folded', !open);
+    tell();
   };
   const show = (open) => {
     unfold(open);
@@ -53,8 +60,8 @@ export function bindPanel() {
   return {
     toggle: () => show(byId('panel').hidden),
     select: (id) => {
-      unfold(true);
       select(byId(`tab-${id}`));
+      unfold(true);
     },
     showing: (id) => !byId('panel').hidden && !byId(id).hidden,
   };

@@ -28,7 +28,7 @@ export class Probe {
     view.canvas.addEventListener('tap', ({ detail }) => { if (this.#active()) this.#point(detail); });
     state.addEventListener('change', () => {
       this.#follow();
-      if (this.#target && this.#active()) markStale(this.place, true);
+      if (this.#target) markStale(this.place, true);
     });
     state.addEventListener('settle', () => this.#ask());
     view.addEventListener('frame', () => this.#follow());

@@ -12,15 +12,29 @@ export function waitMs(error, attempt) {
   return Math.min(LONGEST_WAIT_MS, 250 * 2 ** attempt);
 }
 
-/** The result of `ask()`, asked until the daemon answers; `onWait(error)` before each wait. */
-export async function untilAnswered(ask, onWait) {
+// Who gives up while waiting is not kept waiting.
+const pause = (ms, signal) => new Promise((resolve) => {
+  const timer = setTimeout(resolve, ms);
+  signal?.addEventListener('abort', () => {
+    clearTimeout(timer);
+    resolve();
+  }, { once: true });
+});
+
+/**
+ * The result of `ask()`, asked until the daemon answers; `onWait(error)` before each wait.
+ * @throws what the daemon refuses, and the reason of `signal` once that is aborted
+ */
+export async function untilAnswered(ask, onWait, signal) {
   for (let attempt = 1; ; ++attempt) {
     try {
       return await ask();
     } catch (error) {
       if (!isPassing(error)) throw error;
+      signal?.throwIfAborted();
       onWait(error);
-      await new Promise((resolve) => setTimeout(resolve, waitMs(error, attempt)));
+      await pause(waitMs(error, attempt), signal);
+      signal?.throwIfAborted();
     }
   }
 }

@@ -45,15 +45,19 @@ function downloads(state, view) {
         showHeight();
       } }, title)));
   const pixels = (field) => Math.max(1, Math.round(field.valueAsNumber || 1));
-  const size = () => ({ width: pixels(width), height: pixels(height) });
+  const isSphere = () => (chosen().camera ?? state.value('camera'))?.projection === 'equirectangular';
+  // A whole sphere is twice as wide as high.
+  const columns = () => (isSphere() ? 2 * Math.ceil(pixels(width) / 2) : pixels(width));
+  const size = () => ({ width: columns(), height: pixels(height) });
   const shape = () => (chosen().camera ? 2 : view.shape());
   // The height follows the window's shape until somebody types one; panoramas have their own.
   const showHeight = () => {
-    height.value = Math.max(1, Math.round(pixels(width) / shape()));
+    height.value = Math.max(1, Math.round(columns() / shape()));
   };
   const showFormat = () => {
     const hadOwnShape = height.disabled;
     height.disabled = view.hasOwnShape() || chosen().camera !== undefined;
+    if (isSphere()) width.value = columns();
     if (height.disabled || hadOwnShape) showHeight();
     layers.hidden = chosen().image.format !== 'exr';
   };
@@ -81,6 +85,7 @@ function downloads(state, view) {
     }
   };
   width.addEventListener('input', showHeight);
+  width.addEventListener('change', showFormat);
   format.addEventListener('change', showFormat);
   state.addEventListener('change', showFormat);
   showHeight();
@@ -100,7 +105,7 @@ async function download(state, image, camera, onWait) {
   const asked = { ...scene, image: { ...look, ...image } };
   if (camera) asked.camera = { ...scene.camera, ...camera };
   const { blob } = await untilAnswered(() => render(asked), onWait);
-  saveFile(blob, `${state.preset}.${EXTENSIONS[image.format] ?? image.format}`);
+  saveFile(blob, `${scene.preset}.${EXTENSIONS[image.format] ?? image.format}`);
 }
 
 function snippet(kind, state) {

@@ -6,11 +6,11 @@
 import { isObject } from './paths.js';
 
 // JSON has no order of its own. Members that are not named here come in the middle.
-const FIRST = ['elevation_deg', 'azimuth_deg', 'angular_diameter_deg', 'altitude_km', 'heading_deg',
-               'pitch_deg', 'fov_deg', 'exposure_ev', 'tone_map', 'name', 'optical_depth',
-               'visibility_km', 'scattering_per_km', 'absorption_per_km', 'refractive_index',
-               'pressure_pa', 'temperature_k', 'value', 'latitude_deg', 'longitude_deg',
-               'sidereal_time_deg'];
+const FIRST = ['elevation_deg', 'azimuth_deg', 'angular_diameter_deg', 'irradiance', 'solar_distance_au',
+               'altitude_km', 'heading_deg', 'pitch_deg', 'fov_deg', 'exposure_ev', 'tone_map', 'name',
+               'optical_depth', 'visibility_km', 'scattering_per_km', 'absorption_per_km',
+               'refractive_index', 'pressure_pa', 'temperature_k', 'value', 'latitude_deg',
+               'longitude_deg', 'sidereal_time_deg'];
 const LAST = ['phase', 'profile', 'disc_samples', 'distance_km', 'place'];
 const rank = (name) => (FIRST.includes(name) ? FIRST.indexOf(name) - FIRST.length
                                              : LAST.indexOf(name) + 1);
@@ -72,6 +72,14 @@ export class Schema {
     const forms = this.forms(node);
     return forms.length === 1 && ('const' in forms[0] || (forms[0].type === 'object' &&
       this.members(forms[0]).every(([, member]) => 'const' in member)));
+  }
+
+  /** True for the form of a spectrum that is a curve of nodes. */
+  isCurve(form) {
+    return Boolean(form.properties?.wavelengths_nm && form.properties.values);
+  }
+  isSpectrum(node) {
+    return this.forms(node).some((form) => this.isCurve(form));
   }
 
   /** Number of the first form that `value` has; 0 where it has none. */
@@ -138,9 +146,10 @@ export class Schema {
   }
 }
 
-// Where a spectrum's size goes when it takes another form, and what its other parts start from.
+// Where a spectrum's size goes when it takes another form, and what other parts, those of tables too, start from.
 const CARRIES = { value: true, power_law: true };
-const INITIAL_OF = { at_nm: 550, exponent: 0, wavelengths_nm: [400, 550, 700], values: [1, 1, 1] };
+const INITIAL_OF = { at_nm: 550, exponent: 0, wavelengths_nm: [400, 550, 700], values: [1, 1, 1],
+                     angle_deg: [0, 90, 180], altitude_km: [0, 10, 100], density: [1, 0.3, 0] };
 
 /** One number for how large a spectrum is, undefined where the value is something else. */
 function magnitude(value) {

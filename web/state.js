@@ -41,12 +41,21 @@ export class State extends EventTarget {
     return get(this.scene(), path);
   }
 
+  /** False while nothing is known but the patch: what is not in it may be anything. */
+  isKnown() {
+    return Object.keys(this.resolved).length > 0;
+  }
+
   /** The whole scene of the preset alone. */
   base() {
     return this.#bases.get(this.preset) ?? {};
   }
+  /** What that is; all that is known of the whole scene until the daemon says more, or where it refuses. */
   learnBase(preset, scene) {
     this.#bases.set(preset, scene);
+    if (preset !== this.preset || this.isKnown()) return;
+    this.resolved = scene;
+    this.dispatchEvent(new Event('resolve'));
   }
   knowsBase() {
     return this.#bases.has(this.preset);

@@ -19,10 +19,7 @@ export class Task {
     const { signal } = controller;
     this.#controller = controller;
     try {
-      const answer = await untilAnswered(() => {
-        signal.throwIfAborted();
-        return ask(signal);
-      }, (error) => { if (!signal.aborted) onWait(error); });
+      const answer = await untilAnswered(() => ask(signal), onWait, signal);
       return signal.aborted ? undefined : answer;
     } catch (error) {
       if (signal.aborted) return undefined;

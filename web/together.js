@@ -55,18 +55,19 @@ export function linkedVisibility(path, state, optics, name) {
 const TIE_HELP = 'Warm air reaches higher: the scale height is proportional to the temperature';
 
 /**
- * What an edit brings along: `companions(path, value)`. A switch ties a gas's scale height to its
- * temperature: H = kT / (m g), so both go by the same factor.
+ * What an edit brings along: `companions(path, value, node)`, `node` describing the member. A switch ties a
+ * gas's scale height to its temperature: H = kT / (m g), so both go by the same factor.
  */
 export class Ties {
   #tied = new Set();  // paths of constituents
 
-  constructor(state) {
+  constructor(state, schema) {
     this.state = state;
+    this.schema = schema;
   }
 
-  companions(path, value) {
-    if (this.#isListWithoutWavelengths(path, value)) {
+  companions(path, value, node) {
+    if (this.#isListWithoutWavelengths(value, node)) {
       return { 'spectrum.wavelengths_nm': USUAL_PRIMARIES_NM };
     }
     const root = path.split('.').slice(0, -1).join('.');
@@ -84,9 +85,9 @@ export class Ties {
   }
 
   // Red, green and blue are values at three wavelengths: where the scene leaves them open, the usual.
-  #isListWithoutWavelengths(path, value) {
-    return Array.isArray(value) && value.every((one) => typeof one === 'number') &&
-      path !== 'spectrum.wavelengths_nm' && !Array.isArray(this.state.value('spectrum.wavelengths_nm'));
+  #isListWithoutWavelengths(value, node) {
+    return Array.isArray(value) && this.schema.isSpectrum(node) &&
+      !Array.isArray(this.state.value('spectrum.wavelengths_nm'));
   }
 
   /** The switch for the constituent at `root`. */

@@ -20,6 +20,18 @@ const BY_SENTENCE = {
     ['units', 'editors.js', `const unit = unitText(node['x-unit']);`, `const unit = '';`],
     ['a group of its own for the light', 'panel.js', `['light', 'Light'], `, NOTHING],
   ],
+  'keys step a number from where it is, beyond its slider too': [
+    ['where it is', 'editors.js', 'scale.stepped(binding.get(), steps)', 'scale.toValue(Math.round(slider.valueAsNumber) + steps)'],
+    ['what is allowed', 'numbers.js', 'return Math.min(most, Math.max(least, whole));', 'return whole;'],
+  ],
+  'no slider and no form leads to what is refused': [
+    ['the end of a perspective', 'page.js', 'controls.most = (path) => camera.most(path);', NOTHING],
+    ['tables of altitudes', 'schema.js', 'altitude_km: [0, 10, 100], density: [1, 0.3, 0]', NOTHING],
+    ['tables of angles', 'schema.js', 'angle_deg: [0, 90, 180], ', NOTHING],
+  ],
+  'where all of Show is taken away, nothing else is changed': [
+    ['what is a spectrum', 'together.js', 'Array.isArray(value) && this.schema.isSpectrum(node) &&', 'Array.isArray(value) &&'],
+  ],
   'a number can be typed, and given back': [
     ['typed values', 'editors.js', 'else binding.set(value);\n    },\n    onkeydown', '},\n    onkeydown'],
     ['reset', 'controls.js', 'hidden: true, onclick: () => state.edit({ [path]: undefined }),', 'hidden: true,'],
@@ -42,9 +54,17 @@ const BY_SENTENCE = {
   'constituents have cards; they are switched off, added and removed': [
     ['their sliders', 'constituents.js', '...shown.map((name) => this.controls.make(`${path}.${name}`, members[name])),', NOTHING],
     ['switching off', 'constituents.js', 'this.state.edit({ [path]: null });', NOTHING],
-    ['switching on', 'constituents.js', 'this.state.edit({ [path]: kept?.patch ?? undefined });', NOTHING],
+    ['switching on', 'constituents.js', 'this.state.edit({ [path]: undefined, ...Object.fromEntries(changes) });', NOTHING],
     ['adding', 'constituents.js', 'this.state.edit({ [`${ROOT}.${free}`]: TEMPLATES[template] });', NOTHING],
     ['removing', 'constituents.js', 'this.state.edit({ [`${ROOT}.${name}`]: undefined });', NOTHING],
+  ],
+  'a constituent that was changed comes back as it was': [
+    ['its changes', 'constituents.js', '...Object.fromEntries(changes) });', '});'],
+    ['what it inherits', 'constituents.js', '{ [path]: undefined, ...Object.fromEntries(changes) }', '{ [path]: kept?.patch }'],
+  ],
+  'a card stays under the hand': [
+    ['the same card in any order', 'constituents.js', 'Object.keys(value).sort(), hasTie', 'Object.keys(value), hasTie'],
+    ['the keys where they were', 'constituents.js', 'focus();\n    this.#live', 'this.#live'],
   ],
   'a constituent is drawn against altitude, angle and wavelength': [
     ['the profile', 'curves.js', 'profile: drawProfile,', 'profile: () => undefined,'],
@@ -80,6 +100,10 @@ const BY_SENTENCE = {
   'dragging looks around': [
     ['the drag', 'camera.js', 'else this.#drag(now.x - before.x, now.y - before.y);', NOTHING],
   ],
+  'looking around starts from where the camera is, in a refused scene too': [
+    ['waiting for that', 'camera.js', 'if (this.state.isKnown()) this.state.edit(members);', 'this.state.edit(members);'],
+    ['the preset of what is refused', 'state.js', 'if (preset !== this.preset || this.isKnown()) return;', 'return;'],
+  ],
   'the wheel, or two fingers, zoom': [
     ['the wheel', 'camera.js', `canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });`, NOTHING, 'desktop'],
     ['the pinch', 'camera.js', `if (this.#grip === 'pinch') this.zoom(gap / this.#gap());`, `if (this.#grip === 'pinch') return;`, 'phone'],
@@ -101,7 +125,7 @@ const BY_SENTENCE = {
   'one flies from the ground to space': [
     ['climbing', 'camera.js', `const edit = { 'camera.altitude_km': tidy(next, 4) };`, 'const edit = {};', 'desktop'],
     ['the horizon in sight', 'camera.js', `return { 'camera.pitch_deg': degrees(clamp(pitch - sunk, -90, 90)) };`, 'return {};'],
-    ['the slider', 'editors.js', 'oninput: () => binding.set(scale.toValue(Math.round(slider.valueAsNumber))),', NOTHING, 'phone'],
+    ['the slider', 'editors.js', 'oninput: () => binding.set(Math.min(scale.toValue(Math.round(slider.valueAsNumber)), most())),', NOTHING, 'phone'],
     ['another picture', 'view.js', '#request({ width, height, moving }) {\n    const scene = this.scene();', '#request({ width, height, moving }) {\n    const scene = (this.first ??= this.scene());'],
   ],
   'everything can be reached with the tabulator': [
@@ -130,11 +154,27 @@ const BY_SENTENCE = {
   'what is chosen while the day plays stays chosen': [
     ['looking again', 'day.js', 'last !== undefined && equal(before, this.state.snapshot())', 'last !== undefined'],
   ],
+  'the strip is of the sky that is seen when it is looked at again': [
+    ['looking again', 'page.js', `byId('adjust').addEventListener('shown', () => day.refresh());`, NOTHING],
+  ],
+  'a time that is none breaks nothing': [
+    ['times', 'day.js', `Number.isNaN(local.getTime()) ? '' : local.toISOString()`, 'local.toISOString()'],
+    ['places', 'day.js', '(Number.isFinite(angle) ? angle : usual)', '(angle ?? usual)'],
+  ],
+  'Play waits for its day; the strip is finished afterwards': [
+    ['waiting', 'day.js', 'if (key === this.#key) return this.#known;', 'if (key === this.#key) return undefined;'],
+    ['finishing', 'day.js', 'if (this.#unfinished && this.#timeline) this.#fill(this.#key);', NOTHING],
+  ],
+  'a time-lapse that waits for a busy daemon is stopped at once': [
+    ['the end of the wait', 'task.js', 'onWait, signal);', 'onWait);'],
+    ['the end of the words when stopped', 'day.js', `this.#say('');\n    } catch`, '} catch'],
+    ['the end of the words when it plays', 'day.js', `if (!at) this.#say('');`, NOTHING],
+  ],
   'a day that is pressed twice plays once': [
     ['one at a time', 'day.js', 'if (this.#playing) return this.#lapse.stop();', 'if (this.#lapse.running) return this.#lapse.stop();'],
   ],
   'a longitude beyond 180 degrees has its day too': [
-    ['east and west', 'day.js', 'eastOrWest(longitude ?? PLACES[0][2])', 'longitude ?? PLACES[0][2]'],
+    ['east and west', 'day.js', 'eastOrWest(known(longitude, PLACES[0][2]))', 'known(longitude, PLACES[0][2])'],
   ],
   'a time-lapse plays in any page, in an <img>': [['the stream', 'v1/stream']],
 
@@ -164,10 +204,13 @@ const BY_SENTENCE = {
   // ---- Compare --------------------------------------------------------------------------------
 
   'a wipe shows the same sky by another method': [
-    ['the other method', 'compare.js', ': { ...scene, method: { name: this.against.value } };', ': scene;'],
+    ['the other method', 'compare.js', ': { ...scene, method: { name: this.against.value, scattering_orders: scene.method?.scattering_orders } };', ': scene;'],
     ['the cut', 'wipe.js', 'this.other.style.clipPath = `inset(0 0 0 ${percent})`;', NOTHING],
     ['dragging the line', 'wipe.js', 'this.#move((event.clientX - box.left) / box.width);', NOTHING],
     ['keys on the line', 'wipe.js', 'this.#move(this.#share + STEP[event.key]);', NOTHING],
+  ],
+  'another method is compared in as many orders as the scene has': [
+    ['the orders', 'compare.js', ', scattering_orders: scene.method?.scattering_orders } };', ' } };'],
   ],
   'a pinned sky is wiped against what was changed': [
     ['pinning', 'compare.js', 'this.#pinned = this.state.document();', 'this.#pinned = { preset: this.state.preset };\n    Object.defineProperty(this.#pinned, \'sun\', { enumerable: true, get: () => this.state.document().sun });'],
@@ -231,6 +274,9 @@ const BY_SENTENCE = {
     ['forgetting it', 'own.js', '#putAway() {\n    this.#task.stop();\n    this.#file = undefined;', '#putAway() {\n    this.#task.stop();'],
     ['giving way', 'own.js', '#putAway() {\n    this.#task.stop();', '#putAway() {'],
   ],
+  'a picture of one’s own gives way to a comparison': [
+    ['giving way', 'own.js', `if (this.#file) this.#putAway();`, NOTHING],
+  ],
   'a picture with distances gets the air of the sky': [
     ['the air', 'own.js', `this.modes.choose(hasAir ? 'air' : 'figures');`, `this.modes.choose('figures');`],
   ],
@@ -253,6 +299,10 @@ const BY_SENTENCE = {
     ['the ring', 'probe.js', 'this.mark.style.left = `${spot.x}px`;', NOTHING],
     ['the ring that stays with its direction', 'probe.js', 'const pixel = toPixel(direction(elevation, azimuth), this.#camera, width, height);',
      'const pixel = toPixel(direction(elevation, azimuth), (this.still ??= { ...this.#camera }), width, height);'],
+  ],
+  'light of a sky that has changed behind the folded controls is asked for anew': [
+    ['saying so', 'probe.js', 'if (this.#target) markStale(this.place, true);', 'if (this.#target && this.#active()) markStale(this.place, true);'],
+    ['telling of the fold', 'panel.js', `classList.toggle('folded', !open);\n    tell();`, `classList.toggle('folded', !open);`],
   ],
   'a plot reads its values off by keys': [
     ['keys on a plot', 'plot.js', 'show(chosen + step * (event.shiftKey ? 10 : 1));', NOTHING],
@@ -287,12 +337,13 @@ const BY_SENTENCE = {
   ],
   'PNG and EXR are downloaded at a chosen size': [
     ['saving', 'dom.js', `h('a', { href: address, download: name }).click();`, NOTHING],
-    ['the size', 'save.js', 'const size = () => ({ width: pixels(width), height: pixels(height) });', 'const size = () => ({ width: 64, height: 36 });'],
+    ['the size', 'save.js', 'const size = () => ({ width: columns(), height: pixels(height) });', 'const size = () => ({ width: 64, height: 36 });'],
     ['EXR', 'save.js', `title: 'OpenEXR, linear light', image: { format: 'exr' }`, `title: 'OpenEXR, linear light', image: { format: 'png' }`],
   ],
   'an EXR has its layers apart, an environment map is a whole sphere': [
     ['layers', 'save.js', '...(apart.length ? { layers: apart } : {}),', NOTHING],
     ['the sphere', 'save.js', `image: { format: 'hdr' }, camera: SPHERE }`, `image: { format: 'hdr' } }`],
+    ['even widths', 'save.js', '2 * Math.ceil(pixels(width) / 2)', 'pixels(width)'],
     ['HDR', 'save.js', `title: 'Environment map, HDR', image: { format: 'hdr' }`, `title: 'Environment map, HDR', image: { format: 'png' }`],
   ],
 
@@ -314,6 +365,11 @@ const BY_SENTENCE = {
     ['its end', 'main.js', `page?.controls?.forgive();`, NOTHING],
   ],
 
+  'a refusal whose control is not seen is told over the picture': [
+    ['looking whether it is', 'controls.js', 'return nearest?.element.checkVisibility() ?? false;', 'return nearest !== undefined;'],
+    ['unfolding', 'controls.js', 'if (message) this.#unfold();', NOTHING],
+  ],
+
   // ---- Manners --------------------------------------------------------------------------------
 
   'what is asked names the atmosphere that the last answer was for': [
@@ -330,6 +386,11 @@ const BY_SENTENCE = {
     ['edges of sliders', 'style.css', 'margin-top: -6px;\n  border: 0;\n  border-radius: 50%;\n  background: #fff;\n  box-shadow: 0 0 0 1.5px var(--quiet);',
      'margin-top: -6px;\n  border: 0;\n  border-radius: 50%;\n  background: #fff;'],
     ['edges of switches', 'style.css', 'box-shadow: inset 0 0 0 1.5px var(--quiet);', NOTHING],
+  ],
+  'what is on is seen in forced colours': [
+    ['tabs', 'style.css', ', [role=tab][aria-selected=true], .segmented button[aria-pressed=true]) {\n    forced', ', .segmented button[aria-pressed=true]) {\n    forced'],
+    ['choices of a few', 'style.css', ', .segmented button[aria-pressed=true]) {\n    forced', ') {\n    forced'],
+    ['switches', 'style.css', '.chip, .switch, [role=tablist]', '.chip, [role=tablist]'],
   ],
   'it is accessible in the dark': [
     ['contrast', 'style.css', '--quiet: #aab5c1;', '--quiet: #47525e;'],

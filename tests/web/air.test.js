@@ -47,6 +47,31 @@ visit('the curves follow the sliders', async (person, page) => {
   assert.notDeepEqual(await line(air), before);
 });
 
+visit('a card stays under the hand', async (person, page) => {
+  const air = await open(page, 'air');
+  await look(air, 'Phase');
+  const profile = await person.find('atmosphere.constituents.air.profile');
+  const { x, y, width, height } = await profile.locator('input[type=range]').boundingBox();
+  const reached = async () => (await person.scene()).atmosphere.constituents.air.profile.scale_height_km;
+  await person.press(x + 0.5 * width, y + height / 2);
+  await person.move(x + 0.6 * width, y + height / 2, 5);
+  const first = await reached();
+  await person.move(x + 0.7 * width, y + height / 2, 5);
+  assert.ok((await reached()) > first, 'the drag goes on after a pause');
+  await person.lift();
+  assert.equal(await air.locator('[data-value=phase]').getAttribute('aria-pressed'), 'true');
+  const typed = profile.locator('.typed').first();
+  await typed.fill('1e9');
+  await typed.press('Enter');
+  await profile.locator('.problem').waitFor();
+  await person.settle();
+  assert.ok(await profile.locator('.problem').isVisible(), 'why it is refused');
+  await page.getByRole('switch', { name: 'Air on' }).focus();
+  await page.keyboard.press('Space');
+  await page.locator('.card.off[data-name=air]').waitFor();
+  assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), 'Air on', 'the keys stay where they are');
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]', expected: /400/ });
+
 visit('visibility and optical depth move together', async (person, page) => {
   const card = await open(page, 'aerosol');
   const visibility = card.locator('.linked .typed');
@@ -150,6 +175,25 @@ visit('a place and a time set the sun; the strip shows the day from dawn to dusk
     await person.photograph('day');
   });
 
+visit('the strip is of the sky that is seen when it is looked at again', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  await person.tab('Save');
+  await page.locator('#picture').focus();
+  await page.keyboard.press('w');
+  await person.settle();
+  const [{ camera }] = await Promise.all([
+    page.waitForRequest('**/v1/stream').then((request) => request.postDataJSON().scene), person.tab('Adjust')]);
+  assert.equal(camera.altitude_km, (await person.scene()).camera.altitude_km);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+visit('a time that is none breaks nothing', async (person, page) => {
+  await page.evaluate(() => { location.hash = 'preset=earth&sun.place.time=soon&sun.place.longitude_deg=east'; });
+  await page.waitForFunction(() => document.getElementById('status').dataset.kind === 'refused');
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip-marks span').first().waitFor();
+}, { expected: /400/ });
+
 visit('a longitude beyond 180 degrees has its day too', async (person, page) => {
   await page.locator('[data-group=day] summary').click();
   await page.locator('.strip-marks span').first().waitFor();
@@ -226,3 +270,36 @@ visit('a day that is pressed twice plays once', async (person, page) => {
   await person.rest();
   assert.equal(lapses.length, 1);
 }, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+visit('Play waits for its day; the strip is finished afterwards', async (person, page) => {
+  const { next } = await person.intercept('**/v1/day');
+  await page.locator('[data-group=day] summary').click();
+  const day = await next();
+  await page.getByRole('button', { name: 'Play the day' }).click();
+  await day.continue();
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  await page.getByRole('button', { name: 'Play the day' }).waitFor();
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });
+
+visit('a time-lapse that waits for a busy daemon is stopped at once', async (person, page) => {
+  await page.locator('[data-group=day] summary').click();
+  await page.locator('.strip canvas[data-slices="18"]').waitFor();
+  const waits = [3600, 1];
+  await page.route('**/v1/stream', (route) => (waits.length ? route.fulfill({
+    status: 503, headers: { 'Retry-After': String(waits.shift()) }, contentType: 'application/problem+json',
+    body: '{"title":"Busy","status":503}' }) : route.continue()));
+  const play = page.getByRole('button', { name: 'Play the day' });
+  const busy = page.locator('.day').getByText(/busy/);
+  await play.click();
+  await busy.waitFor();
+  await page.getByRole('button', { name: 'Stop' }).click();
+  await play.waitFor();
+  assert.equal(await busy.count(), 0);
+  await person.rest();
+  const first = await person.look();
+  await play.click();
+  await busy.waitFor();
+  await person.until(async () => (await person.look()) !== first, 'the day plays');
+  assert.equal(await busy.count(), 0);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]', expected: /503/ });

@@ -52,6 +52,15 @@ visit('a wipe shows the same sky by another method', async (person, page) => {
   assert.notEqual(await person.patch(LEFT), before[0]);
 }, { hash: FIXED });
 
+visit('another method is compared in as many orders as the scene has', async (person, page) => {
+  await person.tab('Compare');
+  const [comparison] = await Promise.all([page.waitForRequest('**/v1/compare'),
+                                          page.getByLabel('Against').selectOption('nishita')]);
+  const { a, b } = comparison.postDataJSON();
+  assert.deepEqual([b.method.name, b.method.scattering_orders], ['nishita', 1]);
+  assert.equal(a.method.scattering_orders, 1);
+}, { hash: `${FIXED}&method.scattering_orders=1` });
+
 visit('a pinned sky is wiped against what was changed', async (person, page) => {
   await person.tab('Compare');
   const before = [await person.patch(LEFT), await person.patch(RIGHT)];
@@ -327,3 +336,12 @@ visit('a picture of one’s own is put away in any state, and gives way to the n
   await page.waitForTimeout(500);
   assert.ok(await block.getByText(/not an EXR/).isVisible());
 }, { hash: FIXED, expected: /400/ });
+
+visit('a picture of one’s own gives way to a comparison', async (person, page) => {
+  await drop(page, 'land.exr', exrFile(32, 20, { R: 0, G: 0, B: 0, Z: 10 }));
+  await page.waitForFunction(() => !document.getElementById('overlay').hidden);
+  await page.getByRole('button', { name: 'Pin this sky' }).click();
+  await figures(page);
+  assert.equal(await page.locator('#overlay').isVisible(), false);
+  assert.equal(await page.getByRole('button', { name: 'Back to the sky' }).isVisible(), false);
+}, { hash: FIXED });

@@ -110,6 +110,52 @@ visit('constituents have cards; they are switched off, added and removed',
     assert.equal((await person.scene()).atmosphere, undefined);
   }, { hash: `#preset=earth${FEW}` });
 
+visit('a constituent that was changed comes back as it was', async (person, page) => {
+  await person.type('atmosphere.constituents.air.temperature_k', '250');
+  await person.rest();
+  const [first, scene] = [await person.look(), await person.scene()];
+  await page.getByRole('switch', { name: 'Air on' }).click();
+  assert.equal((await person.scene()).atmosphere.constituents.air, null);
+  await person.rest();
+  await page.getByRole('switch', { name: 'Air on' }).click();
+  assert.deepEqual(await person.scene(), scene);
+  await person.rest();
+  assert.equal(await person.look(), first);
+  await page.locator('.card[data-name=air]:not(.off)').waitFor();
+  assert.deepEqual(person.complaints, []);
+}, { hash: `#preset=earth${FEW}` });
+
+visit('where all of Show is taken away, nothing else is changed', async (person, page) => {
+  const boxes = (await person.find('image.show')).locator('input');
+  for (let i = 0; i < await boxes.count(); ++i) await boxes.nth(i).uncheck();
+  assert.deepEqual(await person.scene(), { preset: 'earth', image: { show: [] } });
+  await person.rest();
+  assert.equal(await page.locator('#status').textContent(), '');
+});
+
+visit('no slider and no form leads to what is refused', async (person, page) => {
+  const view = (await person.find('camera.fov_deg')).locator('input[type=range]');
+  await view.focus();
+  await page.keyboard.press('End');
+  assert.equal((await person.scene()).camera.fov_deg, 179);
+  await page.locator('.card[data-name=aerosol] summary .name').click();
+  for (const member of ['profile', 'phase']) {
+    const form = (await person.find(`atmosphere.constituents.aerosol.${member}`)).locator('.form-choice');
+    await form.selectOption('Table');
+    await person.rest();
+    assert.equal(await page.locator('#status').textContent(), '', member);
+  }
+}, { hash: `#preset=earth${FEW}` });
+
+visit('keys step a number from where it is, beyond its slider too', async (person, page) => {
+  await person.type('sun.elevation_deg', '-50');
+  await person.control('sun.elevation_deg').locator('.typed').press('ArrowUp');
+  assert.equal((await person.scene()).sun.elevation_deg, -49.9);
+  await person.type('sun.elevation_deg', '90');
+  await person.control('sun.elevation_deg').locator('.typed').press('Shift+ArrowUp');
+  assert.equal((await person.scene()).sun.elevation_deg, 90, 'but not beyond what is allowed');
+});
+
 visit('presets are thumbnails that the daemon has rendered', async (person, page) => {
   await person.tab('Skies');
   await page.waitForFunction(() => document.querySelectorAll('.preset img.there').length >= 3);
@@ -288,7 +334,7 @@ visit('an EXR has its layers apart, an environment map is a whole sphere', async
       page.waitForEvent('download'), page.getByRole('button', { name: 'Download' }).click()]);
     return readFile(await download.path());
   };
-  await page.getByLabel('Width', { exact: true }).fill('64');
+  await page.getByLabel('Width', { exact: true }).fill('63');
   await page.getByLabel('As', { exact: true }).selectOption('exr');
   await page.getByLabel('Light of the air').check();
   await page.getByLabel('Transmittance').check();
@@ -299,8 +345,28 @@ visit('an EXR has its layers apart, an environment map is a whole sphere', async
   assert.equal(await page.getByLabel('Height', { exact: true }).inputValue(), '32');
   const sphere = (await save()).toString('latin1');
   assert.match(sphere, /^#\?RADIANCE/);
-  assert.match(sphere, /-Y 32 \+X 64/);
+  assert.match(sphere, /-Y 32 \+X 64/, 'twice as wide as high');
 });
+
+visit('looking around starts from where the camera is, in a refused scene too', async (person, page) => {
+  const answer = await fetch(new URL('/v1/plan', page.url()), { method: 'POST', body: '{"preset":"mars"}' });
+  const { camera } = (await answer.json()).scene;
+  let release;
+  const held = new Promise((resolve) => { release = resolve; });
+  await page.route('**/v1/plan', (route) => held.then(() => route.continue()).catch(() => {}));
+  const refused = { preset: 'mars', sun: { elevation_deg: 500 } };
+  await page.evaluate(() => { location.hash = 'preset=mars&sun.elevation_deg=500'; });
+  await page.waitForFunction(() => document.getElementById('status').dataset.kind === 'refused');
+  await page.locator('#picture').focus();
+  for (const key of ['ArrowUp', 'ArrowRight', 'w', 'd', '+']) await page.keyboard.press(key);
+  assert.deepEqual(await person.scene(), refused, 'nothing is moved from where nobody knows');
+  release();
+  const pitch = person.control('camera.pitch_deg').locator('.typed');
+  await person.until(async () => Number(await pitch.inputValue()) === camera.pitch_deg, 'the camera of the preset is known');
+  await page.keyboard.press('ArrowUp');
+  const moved = (await person.scene()).camera.pitch_deg - camera.pitch_deg;
+  assert.ok(moved > 0 && moved < 5, `${moved} degrees`);
+}, { expected: /400/ });
 
 visit('a slider dragged for ten seconds leaves no request and no error behind', async (person, page) => {
   const open = new Set();
@@ -415,6 +481,28 @@ for (const colorScheme of ['light', 'dark']) {
   }, { colorScheme, hash: `#preset=earth${FEW}` });
 }
 
+visit('what is on is seen in forced colours', async (person, page) => {
+  await page.getByRole('switch', { name: 'Ozone on' }).click();
+  await person.rest();
+  await page.locator('.card[data-name=air] summary .name').click();
+  await page.locator('.card[data-name=air] .segmented').scrollIntoViewIfNeeded();
+  const apart = async (buttons, first) => {  // two side by side, below their words
+    const { x, y, width, height } = await buttons.nth(first).boundingBox();
+    return contrast(page, { x: x + width / 2, y: y + height - 5, width, height: 2 });
+  };
+  assert.ok((await apart(page.getByRole('tab'), 1)) >= 3, 'the chosen tab');
+  assert.ok((await apart(page.locator('.card[data-name=air] .segmented button'), 0)) >= 3, 'the chosen look');
+  const edge = async (name) => {  // of the side where no thumb is while it is off
+    const { x, y, width, height } = await page.getByRole('switch', { name }).boundingBox();
+    return contrast(page, { x: x + 0.7 * width, y: y - 3, width: 0.3 * width + 3, height: height + 6 });
+  };
+  for (const name of ['Air on', 'Ozone on']) {
+    await page.getByRole('switch', { name }).scrollIntoViewIfNeeded();
+    assert.ok((await edge(name)) >= 3, name);
+  }
+  await person.photograph('forced');
+}, { forcedColors: 'active', hash: `#preset=earth${FEW}` });
+
 visit('the wheel, or two fingers, zoom', async (person, page) => {
   if (person.size === 'phone') {
     const apart = (gap) => [{ x: 195 - gap, y: 260 }, { x: 195 + gap, y: 260 }];
@@ -459,8 +547,7 @@ visit('keys of a single character can be switched off, and stay off', async (per
   };
   await press();
   await page.reload();
-  await page.locator('.fold').first().waitFor();
-  await person.rest();
+  await person.there();
   await press();
   await page.keyboard.press('ArrowRight');
   assert.ok((await person.scene()).camera.heading_deg > 0, 'arrows are for the picture alone');

@@ -94,15 +94,17 @@ function countFrames() {
   };
 }
 
-// Notes whether the scene has settled since it last changed.
+// Notes whether the scene has settled since it last changed, and whether the daemon has said what it is.
 function watchScene() {
   window.sceneSettled = true;
+  window.sceneKnown = false;
   const dispatchAsBefore = EventTarget.prototype.dispatchEvent;
   EventTarget.prototype.dispatchEvent = function (event) {
     const ofScene = !(this instanceof Node);
     if (ofScene && event.type === 'change') window.sceneSettled = false;
     const answer = dispatchAsBefore.call(this, event);
     if (ofScene && event.type === 'settle') window.sceneSettled = true;
+    if (ofScene && event.type === 'resolve') window.sceneKnown = true;
     return answer;
   };
 }
@@ -132,8 +134,7 @@ export class Person {
     if (breakage) await person.#break(breakage);
     try {
       await person.page.goto(daemon.address + hash);
-      await person.page.locator('.fold').first().waitFor();
-      await person.rest();
+      await person.there();
     } catch (error) {
       await person.leave();
       throw error;
@@ -152,6 +153,12 @@ export class Person {
     });
   }
 
+  /** Waits until all of the page is there. */
+  async there() {
+    await this.page.locator('.fold').first().waitFor();
+    await this.page.waitForFunction(() => window.sceneKnown);
+    await this.rest();
+  }
   /** Waits until the picture on screen is the final one. */
   async rest() {
     await this.settle();

@@ -65,3 +65,21 @@ visit('a panorama is probed where it is pointed at', async (person, page) => {
   await page.locator('#probe [data-figure=Direction]').waitFor();
   assert.match(await value(page, 'Direction'), /^−?0(\.\d+)?° up, (270|269\.\d|270\.\d)° from north$/);
 }, { hash: '#preset=earth&camera.projection=equirectangular&camera.pitch_deg=0' });
+
+visit('light of a sky that has changed behind the folded controls is asked for anew', async (person, page) => {
+  await page.locator('#picture').focus();
+  await page.keyboard.press('p');
+  await page.locator('#probe .plot').first().waitFor();
+  const before = await value(page, 'Linear R, G, B');
+  await page.locator('#close').click();
+  await page.locator('#picture').focus();
+  for (let i = 0; i < 10; ++i) await page.keyboard.press('a');
+  await person.settle();
+  const { next } = await person.intercept('**/v1/radiance');
+  await page.locator('#open').click();
+  const route = await next();
+  assert.equal(await page.locator('#probe .stale-words').count(), 1);
+  await route.continue();
+  await page.locator('#probe .stale-words').waitFor({ state: 'detached' });
+  assert.notEqual(await value(page, 'Linear R, G, B'), before);
+}, { hash: '#preset=earth&spectrum.wavelengths_nm=[680,550,440]' });

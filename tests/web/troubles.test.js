@@ -52,3 +52,13 @@ visit('a refusal is shown beside its control, under the last good picture', asyn
   assert.equal(await problem.isVisible(), false);
   assert.equal(await said(page), '');
 }, { expected: /400/ });
+
+visit('a refusal whose control is not seen is told over the picture', async (person, page) => {
+  await page.locator('[data-group=sun] summary').click();
+  await person.tab('Save');
+  await page.evaluate(() => { location.hash = 'preset=earth&sun.elevation_deg=500'; });
+  await page.waitForFunction(() => document.getElementById('status').dataset.kind === 'refused');
+  assert.match(await said(page), /90, not 500/);
+  await person.tab('Adjust');
+  assert.ok(await person.control('sun.elevation_deg').locator('.problem').isVisible());
+}, { expected: /400/ });
