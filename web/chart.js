@@ -98,7 +98,11 @@ export class ChartBlock {
 
   #take(line) {
     if (line.points !== undefined) [this.#head, this.#points] = [line, []];
-    else if (line.method && !line.failure && line.error > 0) this.#points.push(line);
+    else if (line.method && !line.failure) {
+      // Of what the reference's noise hides, the most that it may be.
+      const error = line.error || line.error_95[1];
+      if (error > 0) this.#points.push({ ...line, error });
+    }
     this.#redraw ??= requestAnimationFrame(() => {
       this.#redraw = undefined;
       this.#draw();
