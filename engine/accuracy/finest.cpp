@@ -4,11 +4,24 @@
 
 namespace cyanometer {
 
+namespace {
+
+bool may_have_heights(const Surface& surface) {
+  if (const auto* world = std::get_if<ProceduralSurface>(&surface)) return world->relief_km > 0;
+  const auto* map = std::get_if<MapSurface>(&surface);
+  return map && !map->height.empty();
+}
+
+}  // namespace
+
 Plan finest_plan(const Scene& scene, const std::vector<double>& wavelengths_nm) {
   Plan plan;
   plan.method = scene.method.scattering_orders.value_or(2) <= 1 ? "raymarch" : "moments";
-  plan.options =
-      std::ranges::find(methods(), plan.method, &MethodDescription::name)->ladder.back();
+  const auto& ladder =
+      std::ranges::find(methods(), plan.method, &MethodDescription::name)->ladder;
+  // A march that looks for heights before the sun has no time for as many nodes.
+  const bool short_march = plan.method == "raymarch" && may_have_heights(scene.planet.surface);
+  plan.options = ladder.at(ladder.size() - (short_march ? 2 : 1));
   plan.wavelengths_nm = wavelengths_nm;
   return plan;
 }
