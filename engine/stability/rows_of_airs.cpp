@@ -219,18 +219,19 @@ json pure(int which) {
 }
 
 StabilityRow pure_media() {
-  StabilityRow row{.number = 18,
-                   .name = "Empty and pure media",
-                   .trigger =
-                       "nothing (0), absorber (1), density 0 (2), molecules (3), particles "
-                       "(4)",
-                   .quantity =
-                       "relative difference of order one from its integral in double; "
-                       "what nothing scatters is 0",
-                   .bound = 1e-3,
-                   .stated_errors = 1,
-                   .sweep = {0, 1, 2, 3, 4},
-                   .hardest = 1};
+  StabilityRow row{
+      .number = 18,
+      .name = "Empty and pure media",
+      .trigger =
+          "nothing (0), absorber (1), density 0 (2), molecules (3), particles "
+          "(4)",
+      .quantity =
+          "relative difference of order one from its integral in double; "
+          "what nothing scatters is 0",
+      .bound = 1e-3,
+      .stated_errors = 3,  // of one ray; an error is a third of what nearly all are within
+      .sweep = {0, 1, 2, 3, 4},
+      .hardest = 1};
   row.scene = [](double x) { return pure(static_cast<int>(x)); };
   row.measure = [](Trial& trial, double x) -> std::vector<Measured> {
     json scene = changed(pure(static_cast<int>(x)), {{"method", {{"scattering_orders", 1}}}});
