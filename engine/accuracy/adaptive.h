@@ -145,9 +145,30 @@ class Adaptive {
       at.push_back((-b - root) / a);
       at.push_back((-b + root) / a);
     }
+    add_skins(at);
     std::erase_if(at, [&](double t) { return t < 0 || t > path_.length_km; });
     std::sort(at.begin(), at.end());
     return at;
+  }
+
+  /// Where the air begins to hide and hides what lies behind, at each wavelength that it does:
+  /// all light may come from too near to be found by halves.
+  void add_skins(std::vector<double>& at) {
+    const auto seen_through = [&](double t, int lane) {
+      return depth(column(path_.altitude_km, path_.mu, t), lane);
+    };
+    for (int w = 0; w < lanes(); ++w) {
+      constexpr double hides = 30;
+      if (seen_through(path_.length_km, w) < hides) continue;
+      for (double depths : {1.0, hides}) {
+        double near = 0, far = path_.length_km;
+        for (int i = 0; i < 60; ++i) {
+          const double middle = 0.5 * (near + far);
+          (seen_through(middle, w) < depths ? near : far) = middle;
+        }
+        at.push_back(far);
+      }
+    }
   }
 
   /// Integrand along the view ray: radiance a km.

@@ -1,8 +1,8 @@
 // Single scattering by Gauss-Legendre quadrature on each smooth piece of the view ray: it is cut at its
-// lowest point, at the edges of the planet's shadow, where no rule converges, and at the kinks of
-// scattering profiles. Within a piece nodes are stretched from its low end (physics/columns.glsl).
-// Columns to the sun have a rule of their own at every node; columns to the camera grow from node to
-// node by a three-point rule.
+// lowest point, at the edges of the planet's shadow, where no rule converges, at the kinks of scattering
+// profiles, and where wavelengths that the air hides end and others go on. Within a piece nodes are
+// stretched from its low end (physics/columns.glsl). Columns to the sun have a rule of their own at every
+// node; columns to the camera grow from node to node by a three-point rule.
 
 // The share of a constituent's extinction that dims light on its way to the camera: less than 1 for
 // methods that take light which a forward peak scatters straight on as not scattered.
@@ -16,8 +16,10 @@
 #define SUN_OVER_HEIGHTS(position, altitude_km, to_sun) 1.0
 #endif
 
-// Optical depths over which the nodes next to a camera in dense air spread.
+// Optical depths over which the nodes next to a camera in dense air spread, and from which on a wavelength has
+// had its nodes.
 CONSTANT Real VIEW_DEPTHS = 6.0;
+CONSTANT Real UNSEEN_DEPTHS = 2.0 * VIEW_DEPTHS;
 
 // A piece of the path, looked at from its low end upwards; from its near end where so dense air begins
 // there that nothing comes from the far one.
@@ -28,22 +30,21 @@ struct Piece {
   Real reach_km;         // from its near end to about VIEW_DEPTHS
 };
 
-// The distance from a piece's near end beyond which little light comes back, by halves of the piece; all of
-// it where no layer hides anything.
-Real reach_into(Path path, Real from_km, Real to_km) {
+// The distance from a piece's near end beyond which little light comes back of some wavelength that comes so
+// far, by halves of the piece; all of it where no layer hides anything.
+Real reach_into(Path path, Real from_km, Real to_km, ARRAY(Real, view_column, MEDIA_SIZE)) {
   Real reach_km = to_km - from_km;
   for (int i = 0; i < 16 * scene.layers; ++i) {
     Real half_km = 0.5 * reach_km;
-    if (largest_extinction(altitude_after(path.altitude_km, path.mu, from_km + half_km)) * half_km <
-        VIEW_DEPTHS) {
-      break;
-    }
+    Real h = altitude_after(path.altitude_km, path.mu, from_km + half_km);
+    if (largest_extinction_behind(view_column, UNSEEN_DEPTHS, h) * half_km < VIEW_DEPTHS) break;
     reach_km = half_km;
   }
   return reach_km;
 }
 
-Piece piece_between(Path path, Real from_km, Real to_km) {
+// `view_column`: from the camera to its near end.
+Piece piece_between(Path path, Real from_km, Real to_km, ARRAY(Real, view_column, MEDIA_SIZE)) {
   Piece piece;
   Real r = scene.planet_radius_km + path.altitude_km;
   piece.from_km = from_km;
@@ -56,10 +57,10 @@ Piece piece_between(Path path, Real from_km, Real to_km) {
   // In a layer that is denser inside than at its edge, as clouds are, little comes from beyond its rim.
   Real length_km = to_km - from_km;
   Real near_h = altitude_after(path.altitude_km, path.mu, from_km);
-  Real extinction = largest_extinction(near_h);
-  bool dense = extinction * length_km > 2.0 * VIEW_DEPTHS;
+  Real extinction = largest_extinction_behind(view_column, UNSEEN_DEPTHS, near_h);
+  bool dense = extinction * length_km > UNSEEN_DEPTHS;
   piece.reach_km = VIEW_DEPTHS / max(extinction, 1e-9);
-  Real reach_km = reach_into(path, from_km, to_km);
+  Real reach_km = reach_into(path, from_km, to_km, view_column);
   StretchedPath upwards =
       stretched_path(piece.altitude_km, piece.mu, length_km, scene.view_scale_km);
   if (reach_km < min(length_km, upwards.bend_km)) {
@@ -107,16 +108,16 @@ Real end_of_piece(Path path, Light light, Shadow shadow, Real from_km) {
   return end_km;
 }
 
-// Nodes of a piece: where the near end is looked at, light from beyond some optical depths doesn't
-// arrive. Under a sun that is lower than the view, more light comes from above than the air on the way
-// takes away.
+// Where the near end is looked at, light from beyond some optical depths doesn't arrive. Under a sun that is
+// lower than the view, more light comes from above than the air on the way takes away.
+bool is_seen_nearby(Piece piece, Real mu_sun) { return !piece.downwards && piece.mu < mu_sun; }
+
+// Nodes of a piece.
 StretchedPath nodes_of(Piece piece, Real mu_sun) {
   Real length_km = piece.to_km - piece.from_km;
   StretchedPath nodes =
       stretched_path(piece.altitude_km, piece.mu, length_km, scene.view_scale_km);
-  if (!piece.downwards && piece.mu < mu_sun) {
-    nodes.bend_km = min(nodes.bend_km, piece.reach_km);
-  }
+  if (is_seen_nearby(piece, mu_sun)) nodes.bend_km = min(nodes.bend_km, piece.reach_km);
   nodes.end = length_km / sqrt(length_km * length_km + nodes.bend_km * nodes.bend_km);
   return nodes;
 }
@@ -136,7 +137,7 @@ void add_columns_between(Piece piece, StretchedPath nodes, Real x_from, Real x_t
 
 // Adds what a lit piece scatters towards the camera. `view_column`: from the camera to the piece's near
 // end.
-void add_lit_piece(Path path, Piece piece, int sun, int view_nodes,
+void add_lit_piece(Path path, Piece piece, int sun, Real sun_cosine, int view_nodes,
                    ARRAY(Real, view_column, MEDIA_SIZE),
                    INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
   Real density[MEDIA_SIZE];
@@ -147,7 +148,7 @@ void add_lit_piece(Path path, Piece piece, int sun, int view_nodes,
   Vec3 offset = MANY_SUNS ? sun_offset(sun) : Vec3(0.0);
   Vec3 to_sun = sun_ray(path.start, offset).direction;
   scattering_towards(scattering_angle(to_sun, path.direction), scattering_phase);
-  StretchedPath nodes = nodes_of(piece, dot(path.start, to_sun) / length(path.start));
+  StretchedPath nodes = nodes_of(piece, sun_cosine);
   Real last_x = piece.downwards ? 1.0 : 0.0;
   for (int i = 0; i < view_nodes; ++i) {
     int k = piece.downwards ? view_nodes - 1 - i : i;
@@ -183,14 +184,22 @@ void march_towards(Path path, int sun, int view_nodes, int pieces, INOUT(Real) f
                    INOUT_ARRAY(Vec4, inscatter, GROUPS_SIZE)) {
   Light light = light_of_sun(sun);
   Shadow shadow = shadow_on(path, light, 0.0);
+  Vec3 to_sun = sun_ray(path.start, MANY_SUNS ? sun_offset(sun) : Vec3(0.0)).direction;
+  Real sun_cosine = dot(path.start, to_sun) / length(path.start);
   Real view_column[MEDIA_SIZE];
   for (int i = 0; i < pieces && from_km < path.length_km; ++i) {
     Real to_km = end_of_piece(path, light, shadow, from_km);
     Real middle_km = 0.5 * (from_km + to_km);
     if (middle_km <= shadow.enter_km || middle_km >= shadow.leave_km) {
       columns_along(path.altitude_km, path.mu, from_km, view_column);
-      add_lit_piece(path, piece_between(path, from_km, to_km), sun, view_nodes, view_column,
-                    inscatter);
+      Piece piece = piece_between(path, from_km, to_km, view_column);
+      // Wavelengths that see much farther than the one for which the nodes are have a piece of their own.
+      Real seen_km = max(UNSEEN_DEPTHS / VIEW_DEPTHS * piece.reach_km, 1e-6 * path.length_km);
+      if (is_seen_nearby(piece, sun_cosine) && seen_km < to_km - from_km) {
+        to_km = from_km + seen_km;
+        piece.to_km = to_km;
+      }
+      add_lit_piece(path, piece, sun, sun_cosine, view_nodes, view_column, inscatter);
     }
     from_km = to_km;
   }

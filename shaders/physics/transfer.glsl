@@ -49,15 +49,28 @@ void add_scattered(ARRAY(Real, column, MEDIA_SIZE), ARRAY(Real, density, MEDIA_S
   }
 }
 
-// Extinction coefficient at an altitude, 1/km, of the wavelength where it is largest.
-Real largest_extinction(Real h) {
+// Extinction coefficient at an altitude, 1/km, of the wavelength where it is largest, of those that columns of
+// air before it leave more than exp(-unseen) of.
+Real largest_extinction_behind(ARRAY(Real, column, MEDIA_SIZE), Real unseen, Real h) {
   Real density[MEDIA_SIZE];
   densities(h, density);
   Real largest = 0.0;
   UNROLL for (int group = 0; group < GROUPS; ++group) {
     Vec4 sum = Vec4(0.0);
-    UNROLL for (int c = 0; c < MEDIA; ++c) sum = sum + extinction(c, group) * density[c];
+    Vec4 depth = Vec4(0.0);
+    UNROLL for (int c = 0; c < MEDIA; ++c) {
+      sum = sum + extinction(c, group) * density[c];
+      depth = depth + extinction(c, group) * column[c];
+    }
+    sum = sum * step(depth, Vec4(unseen));
     largest = max(max(largest, max(sum.x, sum.y)), max(sum.z, sum.w));
   }
   return largest;
+}
+
+// The same of all wavelengths.
+Real largest_extinction(Real h) {
+  Real none[MEDIA_SIZE];
+  UNROLL for (int c = 0; c < MEDIA; ++c) none[c] = 0.0;
+  return largest_extinction_behind(none, 1.0, h);
 }

@@ -181,6 +181,79 @@ TEST(FoundScenes, InterpolationMakesNoLightUnderAThickShellOfCloudAtNight) {
   EXPECT_EQ(trial.at("failures"), json::array());
 }
 
+TEST(FoundScenes, AWavelengthThatTheAirHidesTakesNoNodesFromOthers) {
+  // All were where the most opaque one could see: green was half too dark beside ultraviolet.
+  const auto green_beside = [](double nm, double altitude_km) {
+    const json scene =
+        changed(plain_scene(), {{"camera", {{"altitude_km", altitude_km}}},
+                                {"spectrum", {{"wavelengths_nm", {nm, 550, 680}}}},
+                                {"method", {{"scattering_orders", 1}}}});
+    Trial asked = trial("raymarch");
+    std::vector<double> green;
+    for (const auto& ray : asked.look(scene, fan({-60, -30, 1, 5, 30, 90}, {90})).radiance)
+      green.push_back(ray[1]);
+    return green;
+  };
+  for (double altitude_km : {0.002, 5.0, 400.0}) {
+    const std::vector<double> alone = green_beside(440, altitude_km);
+    for (double nm : {250.0, 200.0, 150.0, 100.0, 50.0, 10.0}) {
+      const std::vector<double> found = green_beside(nm, altitude_km);
+      for (std::size_t i = 0; i < alone.size(); ++i)
+        EXPECT_NEAR(found[i], alone[i], 1e-3 * alone[i]) << nm << " nm, ray " << i;
+    }
+  }
+}
+
+TEST(FoundScenes, LightFromASkinOfOpaqueAirIsFound) {
+  const json scene =
+      changed(plain_scene(), {{"camera", {{"altitude_km", 400}}},
+                              {"spectrum", {{"wavelengths_nm", {10, 60, 200}}}},
+                              {"method", {{"scattering_orders", 1}, {"view_nodes", 16}}}});
+  const auto rays = fan({-90, -50, -30}, {20, 150});
+  Trial asked = trial("raymarch");
+  const auto truth = asked.first_order(scene, rays), seen = asked.look(scene, rays).relative;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_GT(truth[i][c], 0.001) << i;
+      EXPECT_NEAR(seen[i][c], truth[i][c], 1e-3 * truth[i][c]) << i;
+    }
+  }
+}
+
+TEST(FoundScenes, AirThatLosesNothingGivesBackNoMoreThanItGets) {
+  // The series of all orders over what is not lost, next to nothing: 270 times what the sun
+  // sends in.
+  const json scene{
+      {"preset", "earth_polluted"},
+      {"planet", {{"radius_km", 3.756256}}},
+      {"camera", {{"altitude_km", 87.12893}}},
+      {"atmosphere",
+       {{"constituents",
+         {{"ozone", nullptr},
+          {"air",
+           {{"refractive_index",
+             {{"wavelengths_nm", {4.022483, 620.1606, 11029.125}},
+              {"values", {1.08533583, 2.5143953, 1.9112915}}}},
+            {"temperature_k", 940.3298},
+            {"profile",
+             {{"type", "tent"}, {"centre_km", 37.506454}, {"half_width_km", 15}}}}}}}}},
+      {"sun", {{"distance_km", 19408.8}, {"irradiance", 1}}},
+      {"spectrum", {{"wavelengths_nm", {10, 2048.3342, 5000}}}},
+      {"method",
+       {{"multiple_altitudes", 8},
+        {"multiple_suns", 16},
+        {"multiple_directions", 16},
+        {"multiple_samples", 8},
+        {"sky_azimuths", 8},
+        {"sky_elevations", 16},
+        {"view_samples", 8},
+        {"transmittance_cosines", 64},
+        {"transmittance_altitudes", 16}}}};
+  Trial asked = trial("hillaire");
+  const Radiances seen = asked.look(scene, {{-64.3258, 0.443207}});
+  for (double radiance : seen.radiance.front()) EXPECT_LT(radiance, 1);
+}
+
 TEST(FoundScenes, AirOfWhichAHairsBreadthHidesTheRestGivesBackNoMoreThanItGets) {
   // Between nodes a kilometre apart, of a millionth of which nothing comes through, the column
   // fell below 0 and left one in the light: 2600 times what the sun sends in, by order two.

@@ -328,7 +328,9 @@ int rounds_of_a_piece(const UploadedScene& scene, int nodes) {
 int most_pieces(const UploadedScene& scene) {
   // Cut at the lowest point and the shadow's two edges; each kink is passed twice by the ray
   // and twice by its light.
-  return std::min(4 + 4 * scene.kinks(), int{Physics<float>::MOST_PIECES});
+  const int where_wavelengths_end = 2 * 4 * scene.groups();
+  return std::min(4 + 4 * scene.kinks() + where_wavelengths_end,
+                  int{Physics<float>::MOST_PIECES});
 }
 
 void require_rounds(const UploadedScene& scene, int rounds) {

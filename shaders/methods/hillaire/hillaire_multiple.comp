@@ -50,7 +50,7 @@ void main() {
     if (done) {
       Real mean = 1.0 / Real(push.directions);
       lost[g] = lost[g] * mean;
-      radiance[g] = radiance[g] * mean * series(lost[g], push.terms);
+      radiance[g] = min(radiance[g] * mean * series(lost[g], push.terms), Vec4(MOST_MEAN_RADIANCE));
       int ground_terms = push.terms > 0 ? push.terms - 1 : push.terms;
       ground[g] = ground[g] * mean * series(lost[g], ground_terms);
     }

@@ -71,6 +71,11 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
   }
 }
 
+// No more is anywhere in air that absorbs nothing, per unit irradiance: it is sqrt(3) H(1) / (4 PI) = 0.40
+// deep below an overhead sun [Chandrasekhar 1960, Radiative Transfer, section 22], and where nearly nothing
+// is lost the series makes anything of what quadrature leaves.
+CONSTANT Real MOST_MEAN_RADIANCE = 0.5;
+
 // 1 + r + r^2 + ..., so many terms or (below 0) all; r = 1 - lost, which is less than 1 because no ray
 // ends without having lost something.
 Vec4 series(Vec4 lost, int terms) {
