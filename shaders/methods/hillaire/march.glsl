@@ -215,6 +215,12 @@ Vec4 seen_width(Node node, ARRAY(Vec4, column_to, MEDIA_SIZE), int i, int group)
   return exp(-depth) * node.width_km;
 }
 
+// What is true of the share of light that a ray loses, as nodes find it: nodes too far apart for the air may
+// find more than there is. `lost`: their sum of extinction times seen width.
+Vec4 kept_of_found(Vec4 lost, Vec4 transmittance) {
+  return min((1.0 - transmittance) / max(lost, Vec4(1e-30)), Vec4(1.0));
+}
+
 // From a point that the ground does not hide from the sun.
 void transmittance_to_sun(Real h, Real mu_sun, OUT_ARRAY(Vec4, light, GROUPS_SIZE)) {
   OpticalDepthPosition position = optical_depth_position(h, mu_sun);

@@ -55,9 +55,7 @@ void add_second_order(SunlitRay ray, int samples, Real scale_height_km,
   Vec4 transmittance[GROUPS_SIZE];
   UNROLL for (int group = 0; group < GROUPS; ++group) {
     transmittance[group] = transmittance_of(column, group);
-    // Nodes too far apart for the air may find more light than the ray loses.
-    Vec4 found = scattered_share[group] + absorbed_share[group];
-    Vec4 kept = min((1.0 - transmittance[group]) / max(found, Vec4(1e-30)), Vec4(1.0));
+    Vec4 kept = kept_of_found(scattered_share[group] + absorbed_share[group], transmittance[group]);
     radiance[group] = radiance[group] + kept * scattered_once[group];
     lost[group] = lost[group] + kept * absorbed_share[group] + transmittance[group];
   }

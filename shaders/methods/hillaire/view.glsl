@@ -30,8 +30,10 @@ void march_view(SunlitRay ray, Path path, int sun, int samples, Real scale_heigh
   Vec4 column_to[MEDIA_SIZE];
   Vec4 light[GROUPS_SIZE];
   Vec4 scattering_phase[MEDIA_GROUPS_SIZE];
+  Vec4 lost[GROUPS_SIZE];
   UNROLL for (int c = 0; c < MEDIA; ++c) column[c] = 0.0;
   UNROLL for (int group = 0; group < GROUPS; ++group) {
+    lost[group] = Vec4(0.0);
     further[group] = Vec4(0.0);
     UNROLL for (int c = 0; c < MEDIA; ++c) once[c * GROUPS_SIZE + group] = Vec4(0.0);
   }
@@ -61,10 +63,12 @@ void march_view(SunlitRay ray, Path path, int sun, int samples, Real scale_heigh
       MultiplePosition place;
       if (all_orders) place = multiple_position(node.altitude_km, node.mu_sun);
       UNROLL for (int group = 0; group < GROUPS; ++group) {
-        Vec4 seen = seen_width(node, column_to, i, group) * irradiance;
+        Vec4 width_seen = seen_width(node, column_to, i, group);
+        Vec4 seen = width_seen * irradiance;
         Vec4 scattered = Vec4(0.0);
         UNROLL for (int c = 0; c < MEDIA; ++c) {
           scattered = scattered + scattering(c, group) * density[c][i];
+          lost[group] = lost[group] + extinction(c, group) * density[c][i] * width_seen;
           if (!panel.lit) continue;
           Vec4 arrived = seen * light[group] * density[c][i];
           if (NEAR_SUN) arrived = arrived * scattering_phase[c * GROUPS_SIZE + group];
@@ -74,6 +78,12 @@ void march_view(SunlitRay ray, Path path, int sun, int samples, Real scale_heigh
         further[group] = further[group] + scattered * seen * multiple_scattering(place, group);
       }
     }
+  }
+  UNROLL for (int group = 0; group < GROUPS; ++group) {
+    Vec4 kept = kept_of_found(lost[group], transmittance_of(column, group));
+    further[group] = further[group] * kept;
+    UNROLL for (int c = 0; c < MEDIA; ++c)
+      once[c * GROUPS_SIZE + group] = once[c * GROUPS_SIZE + group] * kept;
   }
 }
 
