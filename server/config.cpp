@@ -45,8 +45,10 @@ const std::vector<Setting>& settings() {
       {"frame-memory-mb",
        "MiB of all frames alive at once; one that needs more by itself is refused with 422",
        &Config::frame_memory_mb, 1, 1e6},
-      {"cache-mb", "MiB of all tables and frames kept between requests", &Config::cache_mb, 0,
-       1e6},
+      {"cache-mb",
+       "MiB of all tables, frames and maps kept between requests; the map used last stays "
+       "besides",
+       &Config::cache_mb, 0, 1e6},
       {"kernels",
        "compiled kernels kept, one for each form of scene that each step of a method met, of "
        "some 5 MiB on a processor; the least recently used goes first",

@@ -99,13 +99,15 @@ json scene_of(std::uint64_t seed) {
   return seed / scenes_of_a_form % 4 == 3 ? any_scene(seed) : random_scene(seed);
 }
 
-/// Pointers to all numbers of the scene that may change a little: not counts, not pixels.
+/// Pointers to all numbers of the scene that may change a little: not counts, not pixels, nor
+/// what order one in double, which lights by rays from one point, knows nothing of.
 std::vector<json::json_pointer> numbers_of(const json& document) {
   std::vector<json::json_pointer> all;
   const json flat = document.flatten();
   for (const auto& [pointer, value] : flat.items()) {
     if (!value.is_number() || pointer.starts_with("/image") ||
-        pointer.starts_with("/camera/fov"))
+        pointer.starts_with("/camera/fov") || pointer == "/sun/angular_diameter_deg" ||
+        pointer == "/sun/distance_km")
       continue;
     all.emplace_back(pointer);
   }
@@ -137,6 +139,13 @@ double brightest_of(const Samples& values, std::size_t channel) {
   return most;
 }
 
+/// noise_of, per unit of the sun's irradiance.
+double relative_noise(const Radiances& seen, std::size_t ray, std::size_t channel) {
+  const double radiance = seen.radiance[ray][channel];
+  if (radiance <= 0) return 0;
+  return noise_of(seen, ray, channel) * seen.relative[ray][channel] / radiance;
+}
+
 /// The largest change on a ray, and which rays are looked at.
 class Sensitivity {
  public:
@@ -156,11 +165,12 @@ class Sensitivity {
   /// The largest change of a method on these rays. Walks that are changed a little part
   /// somewhere: what their noise explains is left out.
   double change_of(const Radiances& a, const Radiances& b) const {
-    const Samples &before = a.radiance, &after = b.radiance;
+    // Order one in double knows nothing of how strong the sun is at a wavelength.
+    const Samples &before = a.relative, &after = b.relative;
     double most = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
       for (std::size_t c = 0; kept_[i] && c < before[i].size(); ++c) {
-        double noise = noise_of(a, i, c) + noise_of(b, i, c);
+        double noise = relative_noise(a, i, c) + relative_noise(b, i, c);
         double moved = std::max(std::abs(after[i][c] - before[i][c]) - noise, 0.0);
         most =
             std::max(most, change(before[i][c], before[i][c] + moved, brightest_of(before, c)));
