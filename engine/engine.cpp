@@ -865,6 +865,13 @@ void Engine::warm(const Watch& watch) {
     measure_profile(watch);
 }
 
+double Engine::frame_ms(const Scene& scene, const Plan& plan, const Watch& watch) {
+  forget_tables();
+  const double before = tables().making_ms;
+  const double ms = render(scene, plan, watch).render_ms;
+  return ms + tables().making_ms - before;
+}
+
 std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
   Scene scene = read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
                             {"image", {{"width", 320}, {"height", 180}, {"format", "npy"}}}});
@@ -881,10 +888,7 @@ std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
     std::vector<double> times;
     do {
       watch.check();
-      forget_tables();
-      double tables_before = tables().making_ms;
-      double frame_ms = render(scene, plan).render_ms;  // without others in between
-      times.push_back(frame_ms + tables().making_ms - tables_before);
+      times.push_back(frame_ms(scene, plan));  // without others in between
     } while (times.size() < repeats && times.front() < long_ms);
     std::ranges::sort(times);
     double evaluations = expected_ms(scene, plan) * parts_->profile.pace(method.name);

@@ -244,6 +244,8 @@ class Engine {
   /// Dispatches every pipeline once, so that the first request finds them compiled; and at the
   /// first start on a device measures its profile, where profiles are kept. @throws Cancelled
   void warm(const Watch& watch = {});
+  /// Device time of a frame whose tables are made anew. The first of its form compiles too.
+  double frame_ms(const Scene& scene, const Plan& plan, const Watch& watch = {});
   /// Measures how fast the device is, some seconds, keeps it, and plans by it from now on.
   /// @returns evaluations a millisecond by method
   std::map<std::string, double> measure_profile(const Watch& watch = {});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "engine/accuracy/dice.h"
 #include "engine/accuracy/error.h"
 #include "engine/accuracy/random_scene.h"
 #include "engine/scene/document.h"
@@ -15,15 +16,27 @@ namespace {
 
 using nlohmann::json;
 
+/// Choices that are expected to take longer than this are not timed, ms.
+constexpr double longest_timed_ms = 2000;
+
+/// The device time of a whole frame, tables included, once its kernels are compiled.
+double timed_ms(Engine& engine, const Scene& scene, const Plan& plan, const Watch& watch) {
+  engine.frame_ms(scene, plan, watch);
+  return engine.frame_ms(scene, plan, watch);
+}
+
 json measure_choice(Engine& engine, const Scene& scene, const Reference& reference,
                     const Plan& plan, const Watch& watch) {
   auto values = engine.radiance(scene, reference.directions, false, plan, watch).relative;
   EstimatedError error = measure_error(values, reference.halves[0], reference.halves[1]);
-  return {{"method", plan.method},
-          {"options", plan.options},
-          {"ms", engine.expected_ms(scene, plan)},
-          {"error", error.measure.error},
-          {"error_95", {error.low, error.high}}};
+  json choice{{"method", plan.method},
+              {"options", plan.options},
+              {"ms", engine.expected_ms(scene, plan)},
+              {"error", error.measure.error},
+              {"error_95", {error.low, error.high}}};
+  if (choice.at("ms") <= longest_timed_ms)
+    choice["took_ms"] = timed_ms(engine, scene, plan, watch);
+  return choice;
 }
 
 json measure_choices(Engine& engine, const Scene& scene, const Reference& reference,
@@ -41,6 +54,29 @@ json measure_choices(Engine& engine, const Scene& scene, const Reference& refere
   return choices;
 }
 
+json described(const Plan& plan) {
+  return {{"method", plan.method},
+          {"options", plan.options},
+          {"stated", plan.expected_error},
+          {"met", plan.met},
+          {"ms", plan.expected_ms}};
+}
+
+/// What is chosen where only a time is asked, as long as a frame may take.
+json plan_in_times(Engine& engine, Scene scene, std::uint64_t seed, const Watch& watch) {
+  constexpr int times = 2;
+  constexpr double shortest_ms = 20;
+  Dice dice(seed);
+  scene.method.max_error.reset();
+  json plans = json::array();
+  for (int i = 0; i < times; ++i) {
+    scene.method.max_ms = dice.logarithmic(shortest_ms, longest_timed_ms);
+    plans.push_back(described(engine.plan(scene, watch)));
+    plans.back()["asked_ms"] = *scene.method.max_ms;
+  }
+  return plans;
+}
+
 const json* choice_of(const json& scene, const json& plan) {
   for (const json& choice : scene.at("choices")) {
     if (choice.at("method") == plan.at("method") &&
@@ -51,11 +87,14 @@ const json* choice_of(const json& scene, const json& plan) {
   return nullptr;
 }
 
-/// The time of the cheapest choice that is good enough.
-std::optional<double> cheapest_ms(const json& scene, double asked) {
+/// As it was measured, or as it is expected where it would have been long.
+double ms_of(const json& choice) { return choice.value("took_ms", choice.at("ms")); }
+
+/// The time of the cheapest choice that is as good as this.
+std::optional<double> cheapest_ms(const json& scene, double error) {
   std::optional<double> ms;
   for (const json& choice : scene.at("choices")) {
-    if (choice.at("error") <= asked && (!ms || choice.at("ms") < *ms)) ms = choice.at("ms");
+    if (choice.at("error") <= error && (!ms || ms_of(choice) < *ms)) ms = ms_of(choice);
   }
   return ms;
 }
@@ -95,7 +134,7 @@ AuditRow row_of(const std::vector<json>& scenes, double asked) {
         ++row.scenes;
         if (error > asked) continue;
         ++row.kept;
-        over_cheapest.push_back(choice.at("ms").get<double>() / *cheapest);
+        over_cheapest.push_back(ms_of(choice) / *cheapest);
       }
     }
   }
@@ -125,13 +164,10 @@ json audit_scene(Engine& engine, std::uint64_t seed, const ReferenceGoal& goal,
     for (double asked : audited_errors) {
       scene.method.max_error = asked;
       Plan plan = engine.plan(scene, watch);
-      result["plans"].push_back({{"asked", asked},
-                                 {"method", plan.method},
-                                 {"options", plan.options},
-                                 {"stated", plan.expected_error},
-                                 {"met", plan.met},
-                                 {"ms", plan.expected_ms}});
+      result["plans"].push_back(described(plan));
+      result["plans"].back()["asked"] = asked;
     }
+    result["plans_in_time"] = plan_in_times(engine, scene, seed, watch);
     result["choices"] = measure_choices(engine, scene, reference, watch);
   } catch (const OverLimit& limit) {
     return {{"seed", seed}, {"failure", limit.what()}};
@@ -147,6 +183,23 @@ std::vector<AuditRow> audit_rows(const std::vector<json>& scenes) {
   return rows;
 }
 
+AuditedTimes audited_times(const std::vector<json>& scenes) {
+  AuditedTimes times;
+  for (const json& scene : scenes) {
+    for (const json& plan : scene.value("plans_in_time", json::array())) {
+      const double asked = plan.at("asked_ms");
+      if (plan.at("met")) {
+        ++times.promised;
+        times.kept += ms_of(*choice_of(scene, plan)) <= asked;
+      } else {
+        ++times.refused;
+        times.possible += cheapest_ms(scene, 1).value_or(asked + 1) <= asked;
+      }
+    }
+  }
+  return times;
+}
+
 std::string audit_report(const std::vector<json>& scenes) {
   std::ostringstream report;
   report
@@ -160,6 +213,10 @@ std::string audit_report(const std::vector<json>& scenes) {
            << row.undecided << " | " << row.impossible << " | "
            << share(row.bounded, row.decided) << " | " << numbers << " |\n";
   }
+  const AuditedTimes times = audited_times(scenes);
+  report << "\nOf times asked, " << share(times.kept, times.promised)
+         << " are kept; of those that `auto` says nothing keeps, something does in "
+         << share(times.possible, times.refused) << ".\n";
   for (const json& scene : scenes) {
     if (scene.contains("failure")) {
       report << "\nseed " << scene.at("seed") << ": " << scene.at("failure").get<std::string>();

@@ -16,9 +16,10 @@ namespace cyanometer {
 inline constexpr double audited_errors[] = {0.1, 0.03, 0.01, 0.003};
 
 /// One random scene, measured: {"seed", "noise", "walks", "choices": [{"method", "options",
-/// "ms", "error", "error_95"}], "plans": [{"asked", "method", "options", "stated", "met",
-/// "ms"}]}, or
-/// {"seed", "failure"} where it was refused. `ms` are the planner's own.
+/// "ms", "took_ms", "error", "error_95"}], "plans": [{"asked", "method", "options", "stated",
+/// "met", "ms"}], "plans_in_time"}, the last as the plans, but with "asked_ms"; or
+/// {"seed", "failure"} where it was refused. `ms` are the planner's own; "took_ms" is the
+/// device's time of a frame with its tables, where no more than seconds are expected.
 nlohmann::json audit_scene(Engine& engine, std::uint64_t seed, const ReferenceGoal& goal,
                            const std::filesystem::path& references, const Watch& watch = {});
 
@@ -35,7 +36,15 @@ struct AuditRow {
   double time_over_cheapest = 0;  ///< median, where kept
 };
 std::vector<AuditRow> audit_rows(const std::vector<nlohmann::json>& scenes);
-/// The rows as a table in Markdown, and below it the scenes that failed, by seed.
+
+/// Of plans within a time, in all scenes.
+struct AuditedTimes {
+  int promised = 0, kept = 0;     ///< said to be within it; and are
+  int refused = 0, possible = 0;  ///< said to be met by nothing; and are by something
+};
+AuditedTimes audited_times(const std::vector<nlohmann::json>& scenes);
+
+/// The rows and the times as a table and a sentence in Markdown, below them the scenes that failed, by seed.
 std::string audit_report(const std::vector<nlohmann::json>& scenes);
 
 }  // namespace cyanometer

@@ -88,6 +88,30 @@ TEST(Audit, DoesNotDecideWhatTheReferenceCannotTell) {
   EXPECT_EQ(audit_rows({json{{"seed", 3}, {"failure", "no"}}})[0].scenes, 0);
 }
 
+/// Of a frame that the planner takes for 10 ms, but that takes 30.
+TEST(Audit, CountsTheTimesThatWereKept) {
+  json scene = audited("cheap", 10, 0.1);
+  scene["choices"][0]["took_ms"] = 30;
+  auto plan = [](const char* method, double asked_ms, bool met) {
+    return json{{"method", method},
+                {"options", json::object()},
+                {"asked_ms", asked_ms},
+                {"met", met}};
+  };
+  scene["plans_in_time"] = {plan("cheap", 20, true), plan("cheap", 35, true),
+                            plan("dear", 50, true), plan("cheap", 5, false),
+                            plan("cheap", 31, false)};
+  const AuditedTimes times = audited_times({scene, {{"seed", 3}, {"failure", "no"}}});
+  EXPECT_EQ(times.promised, 3);
+  EXPECT_EQ(times.kept, 2);
+  EXPECT_EQ(times.refused, 2);
+  EXPECT_EQ(times.possible, 1);
+  // What the dear one costs over the cheapest is told by what that took.
+  json dear = audited("dear", 40, 0.1);
+  dear["choices"][0]["took_ms"] = 30;
+  EXPECT_DOUBLE_EQ(audit_rows({dear})[0].time_over_cheapest, 40. / 30);
+}
+
 TEST(Audit, OfASceneHasAllChoicesAndPlansAmongThem) {
   testing::TemporaryFolder folder;
   Engine& engine = device();
@@ -99,6 +123,10 @@ TEST(Audit, OfASceneHasAllChoicesAndPlansAmongThem) {
       return each.at("method") == plan.at("method") && each.at("options") == plan.at("options");
     })) << plan;
   }
+  for (const json& plan : scene.at("plans_in_time")) {
+    EXPECT_EQ(plan.at("met"), plan.at("ms") <= plan.at("asked_ms"));
+  }
+  EXPECT_GT(audited_times({scene}).promised, 0);
   EXPECT_THAT(audit_report({scene}), ::testing::HasSubstr("| 10 % |"));
 }
 
