@@ -47,6 +47,12 @@ json absorber(Dice& dice, double thickness_km) {
       {"profile", {{"type", "tent"}, {"centre_km", centre}, {"half_width_km", half_width}}}};
 }
 
+/// From tables' sizes to a screen's.
+json image(Dice& dice) {
+  const int width = static_cast<int>(std::lround(dice.logarithmic(128, 1280)));
+  return {{"width", width}, {"height", std::max(1, width * 9 / 16)}};
+}
+
 json camera(Dice& dice, double radius_km, double thickness_km) {
   double kind = dice.uniform(0, 1), heading = dice.uniform(-180, 180);
   if (kind < 0.4) {
@@ -84,14 +90,15 @@ json random_scene(std::uint64_t seed) {
   if (!airless) constituents["air"] = air(dice, scale_height, thickness);
   if (!clean || airless) constituents["haze"] = haze(dice, scale_height);
   if (dice.chance(0.5)) constituents["absorber"] = absorber(dice, thickness);
-  return {
+  json scene{
       {"planet", {{"radius_km", radius}, {"ground_albedo", dice.uniform(0, 0.9)}}},
       {"atmosphere", {{"thickness_km", thickness}, {"constituents", constituents}}},
       {"sun",
        {{"elevation_deg", dice.uniform(-12, 90)}, {"azimuth_deg", dice.uniform(-180, 180)}}},
       {"camera", camera(dice, radius, thickness)},
-      {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
-      {"image", {{"width", 640}, {"height", 360}}}};
+      {"spectrum", {{"wavelengths_nm", {680, 550, 440}}}}};
+  scene["image"] = image(dice);
+  return scene;
 }
 
 }  // namespace cyanometer

@@ -17,6 +17,9 @@ namespace {
 
 using nlohmann::json;
 
+/// That random scenes had when they were found.
+const json found_image{{"width", 640}, {"height", 360}};
+
 Trial trial(const char* method) {
   static const Watch watch;
   return Trial(device(), method, {}, 1 << 15, watch);
@@ -97,7 +100,8 @@ TEST(FoundScenes, AutoSaysHowMuchLightIsLostInThickAir) {
 
 TEST(FoundScenes, RoundingDoesNotDecideWhatTheEdgeOfTheAirShows) {
   // From 1200 km, a sun that moves by 0.002 deg made the limb jump by 4 %.
-  const json scene = random_scene(0);
+  json scene = random_scene(0);
+  scene["image"] = found_image;
   const std::vector<Direction> rays = sample_directions(read_scene(scene), 16);
   Trial asked = trial("moments");
   std::vector<std::vector<double>> before;
@@ -116,6 +120,7 @@ TEST(FoundScenes, LightThatAShortSeriesMakesNegativeDoesNotJump) {
   // Deep twilight in haze: air that scatters more by a few millionths changed it by 1 % and
   // back.
   json scene = random_scene(1320);
+  scene["image"] = found_image;
   scene["method"] = {{"name", "moments"}, {"degree", 2},     {"altitudes", 6},
                      {"suns", 12},        {"directions", 6}, {"azimuths", 4},
                      {"steps", 14},       {"sky_steps", 6},  {"sky_elevations", 12}};
