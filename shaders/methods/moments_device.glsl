@@ -91,7 +91,13 @@ TableRay table_ray(int i, int j) {
 
 Real table_azimuth(int a) { return PI * (Real(a) + 0.5) / Real(AZIMUTHS); }
 
+// What halves can't hold is none of their numbers. Where sin^m of the sun's zenith angle is next to nothing, high
+// moments are divided by it; what they add there is nothing, but an infinity would spread.
+CONSTANT Real MOST_RATIO = 65000.0;
+
 uvec4 pack_pair(Vec4 first, Vec4 second) {
+  first = clamp(first, Vec4(-MOST_RATIO), Vec4(MOST_RATIO));
+  second = clamp(second, Vec4(-MOST_RATIO), Vec4(MOST_RATIO));
   return uvec4(packHalf2x16(first.xy), packHalf2x16(first.zw), packHalf2x16(second.xy), packHalf2x16(second.zw));
 }
 Vec4 first_of(uvec4 pair) { return Vec4(unpackHalf2x16(pair.x), unpackHalf2x16(pair.y)); }

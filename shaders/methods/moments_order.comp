@@ -13,12 +13,6 @@ Vec4 slot_at(int s, int n, int g) {
   return limited_sum(value, taps);
 }
 
-// A ratio in the range of halves. Under a sun near the zenith high moments are divided by next to nothing;
-// what they add there is nothing.
-Vec4 half_ratio(int s, int n, int g) {
-  return clamp(slot_at(s, n, g), Vec4(-65000.0), Vec4(65000.0));
-}
-
 void main() {
   int index = push.first + int(gl_GlobalInvocationID.x);
   if (index >= push.end) return;
@@ -30,6 +24,6 @@ void main() {
   if (slot == 0) {
     WRITE(fine_order, index, floatBitsToUint(slot_at(s, 0, g)));
   } else {
-    WRITE(fine_order, index, pack_pair(half_ratio(s, 2 * slot - 1, g), half_ratio(s, min(2 * slot, AUREOLE - 1), g)));
+    WRITE(fine_order, index, pack_pair(slot_at(s, 2 * slot - 1, g), slot_at(s, min(2 * slot, AUREOLE - 1), g)));
   }
 }

@@ -278,5 +278,48 @@ TEST(FoundScenes, AirOfWhichAHairsBreadthHidesTheRestGivesBackNoMoreThanItGets) 
   }
 }
 
+/// Of what `moments` is asked, by all its settings that `auto` takes.
+std::vector<std::map<std::string, double>> settings_of_moments() {
+  for (const MethodDescription& method : methods()) {
+    if (method.name == "moments") return method.ladder;
+  }
+  return {};
+}
+
+Radiances by_moments(json scene, const std::map<std::string, double>& options) {
+  scene["method"]["name"] = "moments";
+  for (const auto& [name, value] : options) scene["method"][name] = value;
+  Trial asked = trial("moments");
+  return asked.look(scene, sample_directions(read_scene(scene), 64));
+}
+
+TEST(FoundScenes, PeaksInDeepNightStayFinite) {
+  // High moments divided by what little light there is overflowed, and spread from order to
+  // order until all of the ground was NaN.
+  for (std::uint64_t seed : {20049, 20100}) {
+    for (std::size_t setting : {3, 4}) {
+      EXPECT_NO_THROW(by_moments(random_scene(seed), settings_of_moments().at(setting)))
+          << seed;
+    }
+  }
+}
+
+TEST(FoundScenes, LayersThatOnlyAbsorbDoNotBrightenTheRest) {
+  // Few nodes on a ray miss a thin layer: what they missed was made up for by light, 1 % of
+  // what is seen, a quarter of what was scattered twice and more.
+  const json scene = random_scene(20091);
+  std::map<std::string, double> options = settings_of_moments().at(2);
+  options["steps"] = 24;
+  const auto fine = by_moments(scene, options).radiance;
+  for (int steps : {6, 7, 8}) {
+    options["steps"] = steps;
+    const auto few = by_moments(scene, options).radiance;
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      for (std::size_t c = 0; c < fine[i].size(); ++c)
+        EXPECT_NEAR(few[i][c], fine[i][c], 2e-3 * fine[i][c]) << steps << ", ray " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cyanometer
