@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 /// Rays on which a plan's errors are measured.
-constexpr int probes = 256;
+constexpr int probes = 512;
 using Samples = std::vector<std::vector<double>>;
 
 double ms_since(Clock::time_point start) {
@@ -426,7 +426,7 @@ struct Engine::Parts {
   }
 
   /// @param probes  some of the rays
-  Plan plan(const Scene& scene, const Rays& probes, double rays, const Watch& watch) {
+  Plan plan(const Scene& scene, const Rays& probes, Extent extent, const Watch& watch) {
     bool parts = !probes.ends_km.empty();
     Samples light = parts ? picture_light(scene, probes) : Samples{};
     TraceProbe probe = [&](const std::string& name, const MethodOptions& options,
@@ -441,7 +441,7 @@ struct Engine::Parts {
       }
       return seen;
     };
-    return make_plan({scene, rays, methods, profile, probe,
+    return make_plan({scene, extent, methods, profile, probe,
                       parts || has_heights(make_problem(scene, some_wavelengths_of(scene)))});
   }
 
@@ -460,7 +460,7 @@ struct Engine::Parts {
     std::string key = canonical(scene).dump() + ground_revision(scene);
     append_bytes(key, rays.ends_km);
     append_bytes(key, rays.colours);
-    return known_plan(key, [&] { return plan(scene, rays, pixels_of(scene), watch); });
+    return known_plan(key, [&] { return plan(scene, rays, extent_of(scene), watch); });
   }
 
   template <class Make>
@@ -473,8 +473,15 @@ struct Engine::Parts {
     return plans[key] = std::move(plan);
   }
 
-  static double pixels_of(const Scene& scene) {
-    return static_cast<double>(scene.image.width) * scene.image.height;
+  /// The share of pixels that meet something is told from some of them.
+  static Extent extent_of(const Scene& scene) {
+    constexpr int side = 48;
+    Physics<double> camera = pack<double>(make_problem(scene, some_wavelengths_of(scene)));
+    const int columns = std::min(side, scene.image.width),
+              rows = std::min(side, scene.image.height);
+    const auto met = static_cast<double>(pixels_of_grid(camera, columns, rows).size());
+    const double pixels = static_cast<double>(scene.image.width) * scene.image.height;
+    return {pixels * met / (columns * rows), pixels};
   }
 
   static Rays probes_of(const Scene& scene, const Picture* picture) {
@@ -483,7 +490,7 @@ struct Engine::Parts {
   }
 
   Plan plan_this_frame(const Scene& scene, const Watch& watch) {
-    return plan(scene, probes_of(scene, nullptr), pixels_of(scene), watch);
+    return plan(scene, probes_of(scene, nullptr), extent_of(scene), watch);
   }
 
   void trace_frame(const Problem& problem, const Plan& plan,
@@ -511,7 +518,7 @@ Plan Engine::plan(const Scene& scene, const Watch& watch) {
 double Engine::expected_ms(const Scene& scene, const Plan& plan) {
   return cyanometer::expected_ms(parts_->profile, parts_->method(plan.method), plan.options,
                                  make_problem(scene, some_wavelengths_of(scene)),
-                                 Parts::pixels_of(scene), plan.wavelengths_nm.size());
+                                 Parts::extent_of(scene), plan.wavelengths_nm.size());
 }
 
 namespace {
@@ -722,7 +729,7 @@ Radiances Engine::radiance(const Scene& scene, const std::vector<Direction>& dir
   }
   std::vector<glm::dvec3> rays = unit_vectors(directions);
   Plan plan =
-      parts_->plan(spectral, {evenly_from(rays)}, static_cast<double>(rays.size()), watch);
+      parts_->plan(spectral, {evenly_from(rays)}, {static_cast<double>(rays.size())}, watch);
   double planning_ms = ms_since(start);
   Radiances result = radiance(scene, directions, irradiance, plan, watch);
   result.prepare_ms += planning_ms;
@@ -872,27 +879,56 @@ double Engine::frame_ms(const Scene& scene, const Plan& plan, const Watch& watch
   return ms + tables().making_ms - before;
 }
 
+namespace {
+
+/// The median of some times of a frame without others in between, once it is compiled; of one
+/// that is long, its one.
+double median_ms(Engine& engine, const Scene& scene, const Plan& plan, const Watch& watch) {
+  constexpr std::size_t repeats = 3;
+  constexpr double long_ms = 500;
+  engine.frame_ms(scene, plan, watch);
+  std::vector<double> times;
+  do {
+    watch.check();
+    times.push_back(engine.frame_ms(scene, plan));
+  } while (times.size() < repeats && times.front() < long_ms);
+  std::ranges::sort(times);
+  return times[times.size() / 2];
+}
+
+/// A scene of which every pixel shows the air, or none does.
+Scene profiled_scene(bool air) {
+  return read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
+                     {"camera", {{"altitude_km", air ? 0.002 : 1e5}, {"pitch_deg", 45}}},
+                     {"image", {{"width", 320}, {"height", 180}}}});
+}
+
+}  // namespace
+
 std::map<std::string, double> Engine::measure_profile(const Watch& watch) {
-  Scene scene = read_scene({{"spectrum", {{"wavelengths_nm", {680, 550, 440}}}},
-                            {"image", {{"width", 320}, {"height", 180}, {"format", "npy"}}}});
+  Plan plan;
+  plan.wavelengths_nm = {680, 550, 440};
+  plan.method = "raymarch";
+  for (const MethodDescription& method : methods()) {
+    if (method.name == plan.method) plan.options = method.ladder.front();
+  }
+  const double frame_ms = median_ms(*this, profiled_scene(false), plan, watch);
+  const Scene scene = profiled_scene(true);
+  const Extent extent = Parts::extent_of(scene);
   DeviceProfile profile;
+  profile.evaluations_per_ms[DeviceProfile::frame] =
+      extent.pixels * DeviceProfile::evaluations_per_pixel / frame_ms;
   for (const MethodDescription& method : methods()) {
     if (method.ladder.empty()) continue;
-    Plan plan;
     plan.method = method.name;
     plan.options = method.ladder.front();
-    plan.wavelengths_nm = scene.spectrum.wavelengths_nm;
-    render(scene, plan, watch);  // compiles
-    constexpr std::size_t repeats = 3;
-    constexpr double long_ms = 500;
-    std::vector<double> times;
-    do {
-      watch.check();
-      times.push_back(frame_ms(scene, plan));  // without others in between
-    } while (times.size() < repeats && times.front() < long_ms);
-    std::ranges::sort(times);
-    double evaluations = expected_ms(scene, plan) * parts_->profile.pace(method.name);
-    profile.evaluations_per_ms[method.name] = evaluations / times[times.size() / 2];
+    const double method_ms = median_ms(*this, scene, plan, watch) - frame_ms,
+                 expected =
+                     cyanometer::expected_ms({}, parts_->method(method.name), plan.options,
+                                             make_problem(scene, plan.wavelengths_nm),
+                                             {extent.rays}, plan.wavelengths_nm.size());
+    profile.evaluations_per_ms[method.name] =
+        expected * DeviceProfile::nominal / std::max(method_ms, 0.1 * frame_ms);
   }
   parts_->profile = profile;
   parts_->plans.clear();

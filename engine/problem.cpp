@@ -376,4 +376,17 @@ Problem at_wavelengths(const Problem& problem, std::size_t first, std::size_t co
   return part;
 }
 
+double largest_depth(const Problem& problem) {
+  double largest = 0;
+  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
+    double depth = 0;
+    for (const Medium& medium : problem.media) {
+      depth += (medium.scattering_per_km[w] + medium.absorption_per_km[w]) *
+               column_km(medium.profile, problem.thickness_km);
+    }
+    largest = std::max(largest, depth);
+  }
+  return largest;
+}
+
 }  // namespace cyanometer

@@ -86,4 +86,7 @@ struct Output {
 Problem make_problem(const Scene& scene, const std::vector<double>& wavelengths_nm);
 Output make_output(const Scene& scene, const std::vector<double>& wavelengths_nm);
 
+/// Vertical optical depth of extinction, at the wavelength where it is largest.
+double largest_depth(const Problem& problem);
+
 }  // namespace cyanometer

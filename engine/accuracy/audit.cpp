@@ -115,8 +115,9 @@ AuditRow row_of(const std::vector<json>& scenes, double asked) {
   row.asked = asked;
   std::vector<double> overstated, over_cheapest;
   for (const json& scene : scenes) {
-    if (scene.contains("failure")) continue;
-    for (const json& plan : scene.at("plans")) {
+    // Who gets no frame does not get what was asked.
+    row.scenes += scene.contains("failure");
+    for (const json& plan : scene.value("plans", json::array())) {
       if (plan.at("asked") != asked) continue;
       const json& choice = *choice_of(scene, plan);
       double error = choice.at("error"), stated = plan.at("stated");
@@ -129,7 +130,7 @@ AuditRow row_of(const std::vector<json>& scenes, double asked) {
       if (!cheapest) {
         ++row.impossible;
       } else if (holds(choice, asked)) {
-        ++row.undecided;
+        row.undecided.push_back(scene.at("seed"));
       } else {
         ++row.scenes;
         if (error > asked) continue;
@@ -210,11 +211,16 @@ std::string audit_report(const std::vector<json>& scenes) {
     std::snprintf(numbers, sizeof numbers, "%.2f | %.2f", row.overstated,
                   row.time_over_cheapest);
     report << "| " << 100 * row.asked << " % | " << share(row.kept, row.scenes) << " | "
-           << row.undecided << " | " << row.impossible << " | "
+           << row.undecided.size() << " | " << row.impossible << " | "
            << share(row.bounded, row.decided) << " | " << numbers << " |\n";
   }
+  for (const AuditRow& row : audit_rows(scenes)) {
+    if (row.undecided.empty()) continue;
+    report << "\nUndecided at " << 100 * row.asked << " %, by seed:";
+    for (std::uint64_t seed : row.undecided) report << " " << seed;
+  }
   const AuditedTimes times = audited_times(scenes);
-  report << "\nOf times asked, " << share(times.kept, times.promised)
+  report << "\n\nOf times asked, " << share(times.kept, times.promised)
          << " are kept; of those that `auto` says nothing keeps, something does in "
          << share(times.possible, times.refused) << ".\n";
   for (const json& scene : scenes) {

@@ -26,8 +26,9 @@ nlohmann::json audit_scene(Engine& engine, std::uint64_t seed, const ReferenceGo
 /// What the scenes together say of one asked error.
 struct AuditRow {
   double asked = 0;
-  int scenes = 0;         ///< where some choice meets it and the reference can tell
-  int undecided = 0;      ///< where it cannot: the chosen error's interval holds what was asked
+  int scenes = 0;  ///< where some choice meets it and the reference can tell, or refused
+  std::vector<std::uint64_t> undecided;  ///< seeds where it cannot: the chosen error's interval
+                                         ///< holds what was asked
   int kept = 0;           ///< of `scenes`: those whose chosen error is at most what was asked
   int bounded = 0;        ///< of all decided: those whose error is at most what was stated
   int decided = 0;        ///< those whose error's interval does not hold what was stated
@@ -44,7 +45,8 @@ struct AuditedTimes {
 };
 AuditedTimes audited_times(const std::vector<nlohmann::json>& scenes);
 
-/// The rows and the times as a table and a sentence in Markdown, below them the scenes that failed, by seed.
+/// The rows and the times as a table and a sentence in Markdown, below them the scenes that
+/// failed, by seed.
 std::string audit_report(const std::vector<nlohmann::json>& scenes);
 
 }  // namespace cyanometer

@@ -136,6 +136,24 @@ ErrorMeasure measure_error(const Pixels& values, const Pixels& reference) {
   return measure_error(flat(values), flat(reference), channels_of(values));
 }
 
+namespace {
+
+/// Where walks saw no light in a channel they can't tell none from little.
+bool is_blind(const std::vector<double>& reference, const std::vector<double>& values,
+              std::size_t channels) {
+  std::vector<double> seen(channels, 0.0), shown(channels, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    seen[i % channels] += reference[i];
+    shown[i % channels] += values[i];
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    if (seen[c] == 0 && shown[c] > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const Pixels& half_b) {
   std::size_t channels = channels_of(values);
   std::vector<double> l = flat(values), mean = flat(mean_of(half_a, half_b)),
@@ -155,6 +173,10 @@ EstimatedError measure_error(const Pixels& values, const Pixels& half_a, const P
   std::vector<double> errors = bootstrap(differences, channels);
   estimate.low = errors[errors.size() / 40];
   estimate.high = errors[errors.size() - 1 - errors.size() / 40];
+  if (is_blind(mean, l, channels)) {
+    estimate.low = 0;
+    estimate.high = 1;
+  }
   return estimate;
 }
 

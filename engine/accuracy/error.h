@@ -45,7 +45,8 @@ struct EstimatedError {
 /// B: d_A d_B has the expectation d^2, so that the reference's noise does not enter the rms;
 /// from the percentile of |d_A + d_B| / 2 that of |d_A - d_B| / 2, which is noise alone, is
 /// taken out in quadrature; the maximum has it. The interval is of 200 bootstrap samples over
-/// pixels, of which it holds both the choice and the noise.
+/// pixels, of which it holds both the choice and the noise; 0 to 1 where both estimates are
+/// black in a channel that shows something.
 EstimatedError measure_error(const std::vector<std::vector<double>>& values,
                              const std::vector<std::vector<double>>& half_a,
                              const std::vector<std::vector<double>>& half_b);

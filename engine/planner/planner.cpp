@@ -19,12 +19,16 @@ using Samples = std::vector<std::vector<double>>;
 
 constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 
-/// What is measured on some 256 rays holds for the frame in 95 % of frames with this factor.
-constexpr double frame_over_sample = 1.5;
+/// What is measured on some hundred rays holds for the frame in 95 % of frames with this
+/// factor.
+constexpr double frame_over_sample = 1.8;
 
-/// Of all settings of the moments alike, by random walks on Earths and random planets; over
-/// what leaving out their part, light that was scattered more than once, would be.
-constexpr double common_error = 0.015;
+/// What is left of the finest setting's error, over what its last step changed.
+constexpr double over_last_step = 1.3;
+
+/// Of all settings of the moments alike, by random walks on random planets (`audit`); over what
+/// leaving out their part, light that was scattered more than once, would be.
+constexpr double common_error = 0.006;
 /// The same of rays that end after some metres or kilometres, where nearly all of their light
 /// was scattered more than once: what is scattered about the camera alone is 4 % off in haze at
 /// dusk, where whole rays are 1.5 % (tests/composite).
@@ -35,9 +39,14 @@ constexpr double common_error_of_parts = 0.05;
 /// over a world of seas 4 to 15 %, most where coasts and the sky in the sea are looked at.
 constexpr double common_error_of_ground = 0.12, common_error_of_heights = 0.15;
 
-/// Walks that take longer, ms, are none that `auto` would take for a picture or over a ground
-/// that differs from place to place, where every other method may miss what is asked.
-constexpr double longest_walks = 60000;
+/// Walks that take longer, ms, are none that `auto` takes unless that much time is given: the
+/// first before pictures and over a ground that differs from place to place, where every other
+/// method may miss what is asked.
+constexpr double longest_walks = 60000, longest_usual_walks = 10000;
+
+/// Within a time that is asked for lies what is expected to take this much less: in 95 % of
+/// random scenes it takes no longer than that (`audit`).
+constexpr double time_to_spare = 1.4;
 
 /// What a frame aims at where nothing else is asked.
 constexpr double usual_error = 0.02;
@@ -89,9 +98,9 @@ std::array<Samples, 2> walk_twice(const TraceProbe& probe, MethodOptions options
 }
 
 /// Where all settings of the moments may be wrong alike by more than `common_error`: peaks that
-/// none resolves, and air in which light is lost from order to order.
+/// none resolves, haze under a low sun, and air in which light is lost from order to order.
 bool moments_may_fail(const SceneTraits& scene) {
-  return scene.depth > 2 || (scene.asymmetry > 0.85 && scene.haze > 0.1);
+  return scene.depth > 2 || scene.haze > 0.3 || (scene.asymmetry > 0.85 && scene.haze > 0.1);
 }
 
 /// Says how wrong what some rays show may be.
@@ -111,30 +120,33 @@ class QuickJudge final : public Judge {
     const MethodDescription& description = method.description();
     best_ = probe(description.name, description.ladder[rung], wavelengths_nm);
     Samples coarser = probe(description.name, description.ladder[rung - 1], wavelengths_nm);
-    // From one setting to the next errors fall by half and more; what all settings have in
-    // common does not show there.
-    best_error_ = measure_error(coarser, best_).error / 2;
+    // In haze errors fall by half from one setting to the next, and are a little more than what
+    // the last step changes; what all settings have in common does not show there.
+    best_error_ = over_last_step * measure_error(coarser, best_).error;
     if (description.highest_order == 1) return;
     Samples once = probe("raymarch", coarse_march, wavelengths_nm);
     double further = measure_error(once, best_).error;
-    best_error_ += common_error * further;
-    if (parts) {
-      best_error_ += std::max(common_error_of_parts * further - common_error, 0.0) * further;
-    }
+    double common =
+        parts ? std::max(common_error, common_error_of_parts * further) : common_error;
+    best_error_ = std::hypot(best_error_, common * further);
   }
 
-  /// Adds what random walks say of the best solution itself.
-  void check(const std::array<Samples, 2>& walks) {
-    best_error_ += measure_error(best_, walks[0], walks[1]).measure.error;
+  /// Takes into account what random walks say of the best solution itself: no less than they
+  /// leave room for.
+  /// @returns whether they were enough to tell a third of what is asked
+  bool check(const std::array<Samples, 2>& walks, double asked) {
+    walked_error_ = measure_error(best_, walks[0], walks[1]).high;
+    return walked_error_ <= std::max(best_error_, asked / 3);
   }
 
   double bound(const Samples& samples) const override {
-    return frame_over_sample * measure_error(samples, best_).error + best_error_;
+    const double from_best = frame_over_sample * measure_error(samples, best_).error;
+    return std::hypot(from_best, best_error_, walked_error_);
   }
 
  private:
   Samples best_;
-  double best_error_ = 0;
+  double best_error_ = 0, walked_error_ = 0;
 };
 
 /// By random walks, as many as it takes to see a third of what is asked, within some seconds.
@@ -175,13 +187,13 @@ class Planner {
   /// The cheapest within the error and the time; otherwise the best that there is time for.
   Choice cheapest(const Wavelengths& wavelengths) const {
     const MethodChoice& asked = in_.scene.method;
-    const bool walks_have_an_end = in_.parts || problem_.ground;
     std::optional<Choice> best;
+    const double longest = in_.parts || problem_.ground ? longest_walks : longest_usual_walks;
     bool but_for_ground = false;  // one meets what is asked, but for what none makes less
     for (const Choice& each : candidates(wavelengths)) {
       const bool random = each.method->description().random;
-      if (best && asked.max_ms && each.ms > *asked.max_ms) break;
-      if (best && walks_have_an_end && random && each.ms > longest_walks) break;
+      if (best && asked.max_ms && is_late(each)) break;
+      if (best && random && !asked.max_ms && each.ms > longest) continue;
       if (but_for_ground && !random) continue;
       Choice measured = judged_or_left(each);
       if (asked.max_error && stated(measured, wavelengths) <= *asked.max_error) return measured;
@@ -194,6 +206,11 @@ class Planner {
                         std::hypot(measured.error, wavelengths.error) <= *asked.max_error;
     }
     return *best;
+  }
+
+  bool is_late(const Choice& choice) const {
+    const auto& given = in_.scene.method.max_ms;
+    return given && choice.ms * time_to_spare > *given;
   }
 
   /// What the plan of a choice says of its error.
@@ -228,13 +245,24 @@ class Planner {
     }
     const Method& best = method(single_scattering(in_.scene) ? "raymarch" : "moments");
     auto judge = quick_judge(best);
-    if (!single_scattering(in_.scene) && moments_may_fail(traits)) {
-      constexpr double walks = 1 << 15;  // of all rays together, some tenths of a second
-      double each = std::exp2(std::ceil(std::log2(walks / std::min(in_.rays, 256.0))));
-      judge->check(walk_twice(in_.probe, method("path").description().ladder.front(), few_,
-                              each, 1 << 30));
-    }
+    if (!single_scattering(in_.scene) && moments_may_fail(traits))
+      check_by_walks(*judge, traits.depth);
     return judge;
+  }
+
+  void check_by_walks(QuickJudge& judge, double depth) const {
+    // Of all rays together, from some tenths of a second to some seconds: light leaves thick
+    // air after about as many steps as the square of its depth.
+    constexpr double fewest = 1 << 15;
+    const double most = (1 << 18) / std::max(depth * depth / 4, 1.0);
+    double seed = 1 << 30;
+    for (double walks = fewest; walks <= std::max(most, fewest); walks *= 2, seed += 2) {
+      double each = std::exp2(std::ceil(std::log2(walks / std::min(in_.extent.rays, 512.0))));
+      if (judge.check(walk_twice(in_.probe, method("path").description().ladder.front(), few_,
+                                 each, seed),
+                      in_.scene.method.max_error.value_or(usual_error)))
+        return;
+    }
   }
 
   /// By the finest setting that is quick and within the device's limits in this scene.
@@ -254,7 +282,7 @@ class Planner {
     constexpr double longest_ms = 1500;
     std::size_t rung = judge.description().ladder.size() - 1;
     auto ms = [&] {
-      return expected_ms(in_.profile, judge, judge.description().ladder[rung], problem_, 256,
+      return expected_ms(in_.profile, judge, judge.description().ladder[rung], problem_, {512},
                          few_.size());
     };
     while (rung > 1 && ms() > longest_ms) --rung;
@@ -265,7 +293,7 @@ class Planner {
                 const Wavelengths& wavelengths) const {
     return {
         &method, options,
-        expected_ms(in_.profile, method, options, problem_, in_.rays, wavelengths.nm.size()),
+        expected_ms(in_.profile, method, options, problem_, in_.extent, wavelengths.nm.size()),
         1};
   }
 
@@ -379,7 +407,7 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
   }
   if (!plan.met) {
     text << " That misses what was asked; nothing better is there"
-         << (inputs.scene.method.max_ms ? "." : ", but for walks without end.");
+         << (inputs.scene.method.max_ms ? "." : ", but for longer walks.");
   }
   return text.str();
 }
@@ -387,12 +415,14 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
 }  // namespace
 
 double expected_ms(const DeviceProfile& profile, const Method& method,
-                   const MethodOptions& options, const Problem& problem, double rays,
+                   const MethodOptions& options, const Problem& problem, Extent extent,
                    std::size_t wavelengths) {
   // Columns are the same at every wavelength; the rest is done for four of them at a time.
   double groups = std::ceil(static_cast<double>(wavelengths) / 4);
-  double evaluations = method.evaluations(problem, options, rays) * (1 + groups) / 2;
-  return evaluations / profile.pace(method.description().name);
+  double evaluations = method.evaluations(problem, options, extent.rays) * (1 + groups) / 2;
+  return evaluations / profile.pace(method.description().name) +
+         extent.pixels * DeviceProfile::evaluations_per_pixel /
+             profile.pace(DeviceProfile::frame);
 }
 
 Plan make_plan(const PlanInputs& inputs) {
@@ -407,8 +437,7 @@ Plan make_plan(const PlanInputs& inputs) {
   };
   Choice choice = choose();
   // Where only time is asked, colour too is worth no more than there is.
-  const auto late = [&] { return asked.max_ms && choice.ms > *asked.max_ms; };
-  while (automatic && !asked.max_error && late() && wavelengths.size() > 1) {
+  while (automatic && !asked.max_error && planner.is_late(choice) && wavelengths.size() > 1) {
     wavelengths.pop_back();
     choice = choose();
   }
@@ -418,8 +447,8 @@ Plan make_plan(const PlanInputs& inputs) {
   plan.options = choice.options;
   plan.expected_ms = choice.ms;
   plan.expected_error = planner.stated(choice, wavelengths.back());
-  plan.met =
-      !automatic || ((!asked.max_error || plan.expected_error <= *asked.max_error) && !late());
+  plan.met = !automatic || ((!asked.max_error || plan.expected_error <= *asked.max_error) &&
+                            !planner.is_late(choice));
   plan.why =
       explain(inputs, plan, choice, wavelengths.back().error, planner.error_on_ground(choice));
   return plan;

@@ -18,9 +18,15 @@ using TraceProbe = std::function<std::vector<std::vector<double>>(
     const std::string& method, const MethodOptions& options,
     const std::vector<double>& wavelengths_nm)>;
 
+/// How much a request asks for.
+struct Extent {
+  double rays = 0;    ///< that meet air or ground
+  double pixels = 0;  ///< that are stored and displayed; 0 of rays from a list
+};
+
 struct PlanInputs {
   const Scene& scene;
-  double rays = 0;  ///< of the whole request
+  Extent extent;  ///< of the whole request
   const std::vector<std::unique_ptr<Method>>& methods;
   const DeviceProfile& profile;
   TraceProbe probe;    ///< the same few rays each time
@@ -37,7 +43,7 @@ Plan make_plan(const PlanInputs& inputs);
 /// Time on the device that a plan reckons with, ms.
 /// @param problem  the scene at a few wavelengths
 double expected_ms(const DeviceProfile& profile, const Method& method,
-                   const MethodOptions& options, const Problem& problem, double rays,
+                   const MethodOptions& options, const Problem& problem, Extent extent,
                    std::size_t wavelengths);
 
 }  // namespace cyanometer

@@ -10,8 +10,12 @@
 namespace cyanometer {
 
 struct DeviceProfile {
-  /// By method, of the evaluations that it reckons with (Method::evaluations).
+  /// By method, of the evaluations that it reckons with (Method::evaluations); and of what is
+  /// done with every pixel, whatever it shows.
   std::map<std::string, double> evaluations_per_ms;
+  static constexpr const char* frame = "frame";
+  /// For which a pixel counts there.
+  static constexpr double evaluations_per_pixel = 40;
 
   /// Of a software device on two cores, where nothing is known of a method.
   static constexpr double nominal = 4e5;

@@ -89,6 +89,15 @@ TEST(EstimatedError, SeesFarBelowTheReferencesNoise) {
   EXPECT_LT(sum / trials, 0.003);
 }
 
+/// The night side of a planet: walks that found nothing decide nothing.
+TEST(EstimatedError, KnowsNothingWhereBothEstimatesAreBlack) {
+  const std::vector<std::vector<double>> dim(64, {1e-14, 1}), black(64, {0, 1});
+  const EstimatedError blind = measure_error(dim, black, black);
+  EXPECT_EQ(blind.low, 0);
+  EXPECT_EQ(blind.high, 1);
+  EXPECT_EQ(measure_error(black, black, black).high, 0);
+}
+
 TEST(EstimatedError, WithoutNoiseIsTheMeasureItself) {
   std::vector<std::vector<double>> reference{{1, 2}, {3, 1}, {2, 2}},
       values{{1.1, 2}, {2.5, 1}, {2, 3}};

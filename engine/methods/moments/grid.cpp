@@ -59,19 +59,6 @@ typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, 
   return grid;
 }
 
-double largest_depth(const Problem& problem) {
-  double largest = 0;
-  for (std::size_t w = 0; w < problem.wavelengths_nm.size(); ++w) {
-    double depth = 0;
-    for (const Medium& medium : problem.media) {
-      depth += (medium.scattering_per_km[w] + medium.absorption_per_km[w]) *
-               column_km(medium.profile, problem.thickness_km);
-    }
-    largest = std::max(largest, depth);
-  }
-  return largest;
-}
-
 int degree_for(const Problem& problem) {
   // What the first moment left out scatters of a beam that crosses the air: in thick air light
   // has no peak left. An optical depth of a hundredth of it was measured to be worth up to a

@@ -12,9 +12,6 @@ template <class Real>
 typename physics::Physics<Real>::MomentGrid moment_grid(const Problem& problem, int altitudes,
                                                         int suns);
 
-/// Vertical optical depth of extinction, at the wavelength where it is largest.
-double largest_depth(const Problem& problem);
-
 /// A degree for moments that leaves little of the scene's forward peaks to the aureole's
 /// channel: 2 without particles, where that is all, 4 in clear air, up to 8.
 int degree_for(const Problem& problem);
