@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/http/problem.h"
+#include "server/process_use.h"
 #include "server/routes/openapi.h"
 #include "server/routes/route.h"
 
@@ -70,6 +71,11 @@ std::string metrics_of(Service& service) {
   out += value("cyanometer_connections", "gauge", "Open connections.", service.connections());
   out +=
       value("cyanometer_ready", "gauge", "1 when requests are taken.", service.ready() ? 1 : 0);
+  const ProcessUse process = process_use();
+  out += value("process_cpu_seconds_total", "counter", "The processor's time, of all threads.",
+               process.cpu_s);
+  out += value("process_resident_memory_bytes", "gauge", "Memory of the process.",
+               process.resident_bytes);
   out += Metrics::value("cyanometer_build_info", "gauge", "The version.", 1,
                         "version=\"" + version() + "\"");
   return out;

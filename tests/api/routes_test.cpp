@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -769,6 +770,20 @@ TEST(Operations, HealthReadinessAndMetricsAreAnswered) {
         "cyanometer_stage_duration_seconds_sum{stage=\"encode\"}", "cyanometer_ready 1"}) {
     EXPECT_TRUE(has(*metrics, name)) << name;
   }
+}
+
+TEST(Operations, MetricsTellTheUseOfThisProcess) {
+  const auto used_s = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  const double before_s = used_s();
+  const auto metrics = client().Get("/metrics");
+  ASSERT_TRUE(metrics);
+  const auto value = [&](const std::string& name) {
+    const auto at = metrics->body.find("\n" + name + " ");
+    return at == std::string::npos ? 0 : std::stod(metrics->body.substr(at + name.size() + 2));
+  };
+  EXPECT_GE(value("process_cpu_seconds_total"), before_s);
+  EXPECT_LE(value("process_cpu_seconds_total"), used_s());
+  EXPECT_GT(value("process_resident_memory_bytes"), 1 << 20);
 }
 
 TEST(Operations, AListenerOfTheirOwnAnswersThemAlone) {

@@ -95,15 +95,19 @@ cpu_s() { awk '{print ($14 + $15) / 100}' "/proc/$(state .State.Pid)/stat"; }
 render() { curl -sS -m 300 -o "$storage/out/$1" -w '%{http_code}' -d "$2" "$origin/v1/render"; }
 is_png() { [[ $(head -c 4 "$1" | tail -c 3) == PNG ]]; }
 
+# Of the files of that name under a folder, MB.
+size_of() { find "$1" -type f -name "$2" -printf '%s\n' | awk '{sum += $1} END {printf "%.0f", sum / 1e6}'; }
+
 check_image() {
-  local mb
+  local mb root
   mb=$(($(config .Size) / 1000000))
-  say "the image has $mb MB"
+  root=$(podman image mount "$image")
+  say "the image has $mb MB, of which LLVM is $(size_of "$root" 'libLLVM*')"
   expect "at most 300 MB" test "$mb" -le 300
   expect "its user is not root" test "$(config .User)" == 10001:10001
   expect "no shell" refuse run --rm --entrypoint /bin/sh "$image" -c true
-  expect "the licences are there" test -s "$(podman image mount "$image")/usr/share/doc/libllvm15/copyright"
-  expect "nothing is setuid" test -z "$(find "$(podman image mount "$image")" -perm /6000 -print -quit)"
+  expect "the licences are there" test -s "$root/usr/share/doc/libllvm15/copyright"
+  expect "nothing is setuid" test -z "$(find "$root" -perm /6000 -print -quit)"
   podman image umount "$image" >/dev/null
   run --rm "$image" devices | tee "$storage/out/devices"
   expect "lavapipe would be used" grep -q '^\* *llvmpipe' "$storage/out/devices"

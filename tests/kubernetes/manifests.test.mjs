@@ -7,6 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
 
+import { mostMemory, settingsOf } from '../daemon_settings.mjs';
 import { binary, documents, folders, here, only, serve } from './manifests.mjs';
 
 const made = new Map(folders.map((folder) => [folder, documents(folder)]));
@@ -137,15 +138,10 @@ test('settings are those of the daemon, and it has what the probes ask', async (
 });
 
 test('what the daemon may take fits into its pod', () => {
-  const usual = execFileSync(binary, ['serve', '--help-markdown'], { encoding: 'utf8' });
   const gibibytes = (amount) => Number(/^(\d+)Gi$/.exec(amount)[1]);
   for (const folder of ['base', 'keda', 'gpu']) {
     const [container] = podOf(made.get(folder)).spec.containers;
-    const setting = (name) => Number(environment(container)[name]
-      ?? new RegExp(`\`${name}\` \\| \`(\\d+)\``).exec(usual)[1]);
-    // docker/README.md, "What to watch"; the bodies of requests are as much again as the frames.
-    const most = setting('CYANOMETER_CACHE_MB') + 2 * setting('CYANOMETER_FRAME_MEMORY_MB')
-      + 5 * setting('CYANOMETER_KERNELS') + 200;
+    const most = mostMemory(settingsOf(binary, environment(container)));
     const { requests, limits } = container.resources;
     assert.ok(gibibytes(limits.memory) * 1024 >= most, `${folder}: ${most} MiB`);
     assert.equal(requests.memory, limits.memory);
@@ -153,10 +149,9 @@ test('what the daemon may take fits into its pod', () => {
 });
 
 test('what is in flight is finished before a pod is killed', () => {
-  const deadline = 600; // --deadline-s, unless the manifest says otherwise
   const { spec } = podOf(made.get('base'));
-  const drain = Number(environment(spec.containers[0]).CYANOMETER_DRAIN_S);
-  assert.ok(spec.terminationGracePeriodSeconds >= deadline + drain);
+  const setting = settingsOf(binary, environment(spec.containers[0]));
+  assert.ok(spec.terminationGracePeriodSeconds >= setting('CYANOMETER_DEADLINE_S') + setting('CYANOMETER_DRAIN_S'));
 });
 
 test('the pods of the Job render the sequence, each frame once', () => {

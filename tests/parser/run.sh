@@ -13,7 +13,7 @@ flags=(-std=c++20 -O1 -g -I. -fsanitize=fuzzer-no-link,address,undefined -fno-sa
   -fprofile-instr-generate -fcoverage-mapping)
 sources=(engine/scene/*.cpp)
 # What the parser takes from its neighbours comes as it is.
-rest=(build/libengine.a $(pkg-config --libs vulkan libturbojpeg libisal OpenEXR spdlog))
+rest=(build/libengine.a $(pkg-config --libs vulkan libturbojpeg libisal libpng OpenEXR spdlog))
 # A vector that only one side watches over looks overrun to it.
 export ASAN_OPTIONS=detect_container_overflow=0
 

@@ -100,10 +100,15 @@ test('one address that asks too often is told so, another is not', async () => {
   assert.equal((await ask('/v1/limits', { from: stranger() })).status, 200);
 });
 
-test('a body that is too long is refused as the daemon would', async () => {
-  const answer = await ask('/v1/render', { from: stranger(), method: 'POST', body: ' '.repeat(4_194_305) });
-  assert.equal(answer.status, 413);
-  assert.equal(answer.headers['content-type'], 'application/problem+json');
+test('a scene that is too long is refused by the daemon, a body that is longer yet by nginx', async () => {
+  const refusal = async (mib) => {
+    const answer = await ask('/v1/render', { from: stranger(), method: 'POST', body: ' '.repeat(mib * 2 ** 20 + 1) });
+    assert.equal(answer.status, 413, `${mib} MiB`);
+    assert.equal(answer.headers['content-type'], 'application/problem+json');
+    return JSON.parse(answer.body).detail;
+  };
+  assert.match(await refusal(8), /8388609 bytes/);
+  assert.equal(await refusal(64), 'The body is longer than 64 MiB.');
 });
 
 test('what is too much for one replica is done by the others; what is too much for all is turned away with a time', async () => {

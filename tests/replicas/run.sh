@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Three daemons as docker/compose.yaml sets them up, behind a real nginx with docker/nginx.conf as it
-# is: who gets which request, what dies unnoticed, what is turned away. Some minutes.
+# docker/compose.yaml for what can be seen of it without containers; then three daemons as it sets them up,
+# behind a real nginx with docker/nginx.conf as it is: who gets which request, what dies unnoticed, what is
+# turned away. Some minutes.
 #
 # Needs root: the names and ports are those of the containers, in a network of its own.
 set -euo pipefail
@@ -26,4 +27,5 @@ docker-compose -f docker/compose.yaml config |
     awk '{print "127.0.0." NR + 1, $0}'
 } >"$work/hosts"
 mount --bind "$work/hosts" /etc/hosts
-WORK=$work node --test --test-concurrency=1 --test-reporter=tap "$@" tests/replicas/replicas.test.mjs
+WORK=$work node --test --test-concurrency=1 --test-reporter=tap "$@" \
+  tests/replicas/compose.test.mjs tests/replicas/replicas.test.mjs
