@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cache_folder.h"
+#include "engine/image/encode.h"
 #include "engine/scene/document.h"
 #include "engine/surface/maps.h"
 
@@ -117,6 +118,12 @@ std::vector<std::string> preset_names() {
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const MethodDescription& method : methods()) names.push_back(method.name);
+  return names;
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Encoding& each : encodings()) names.emplace_back(each.name);
   return names;
 }
 

@@ -40,9 +40,10 @@ void write_file(const std::string& path, const std::string& bytes);
 /// An engine on the device whose name has this part, with the profiles that the daemon keeps.
 Engine command_engine(const std::string& device);
 
-/// For options that take a preset, or a method.
+/// For options that take a preset, a method, or an image's format.
 std::vector<std::string> preset_names();
 std::vector<std::string> method_names();
+std::vector<std::string> format_names();
 
 /// A watch that SIGINT and SIGTERM cancel and that shows a bar on a terminal.
 Watch command_watch();

@@ -307,6 +307,30 @@ TEST(Command, LoadAsksForFramesThatNoOtherRunLeftAndOfAnyFormat) {
   EXPECT_EQ(kept(), before);
 }
 
+TEST(Command, LoadVariesWhatItIsTold) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
+  for (const std::string vary : {"sun", "nothing"}) {
+    Program run({"load", url, "--clients", "1", "--seconds", "0.3", "--scene",
+                 folder / "scene.json", "--vary", vary, "--size", "16x9", "--format", "exr",
+                 "--json"});
+    ASSERT_EQ(run.wait(), 0) << run.err();
+    const json report = json::parse(run.out());
+    const auto frames = report.at("statuses").value("200", std::size_t{0});
+    EXPECT_GE(frames, 2u) << report;
+    EXPECT_EQ(report.at("truncated"), 0);
+    EXPECT_EQ(report.at("kept").get<std::size_t>() + 1 >= frames, vary == "nothing") << report;
+    EXPECT_GT(report.at("stated_error"), 0);
+    EXPECT_TRUE(report.at("stage_ms").contains("render"));
+  }
+  Program refused({"load", url, "--vary", "moods"});
+  EXPECT_EQ(refused.wait(), 2);
+  Program unsized({"load", url, "--size", "16"});
+  EXPECT_EQ(unsized.wait(), 2);
+  EXPECT_THAT(unsized.err(), ::testing::HasSubstr("1280x720"));
+}
+
 TEST(Command, HealthProbesADaemon) {
   const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
   Program well({"health", url});
