@@ -55,8 +55,8 @@ int run_command(int count, char** arguments) {
        {add_serve,     add_render,        add_radiance,  add_plan,        add_compare,
         add_composite, add_explain,       add_attribute, add_experiments, add_devices,
         add_health,    add_contact_sheet, add_schema,    add_bench,       add_chart,
-        add_audit,     add_profile,       add_load,      add_tables,      add_stability,
-        add_precision}) {
+        add_audit,     add_profile,       add_load,      add_load_report, add_tables,
+        add_stability, add_precision}) {
     add(app);
   }
   try {

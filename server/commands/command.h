@@ -70,6 +70,7 @@ void add_chart(CLI::App& app);
 void add_audit(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_load(CLI::App& app);
+void add_load_report(CLI::App& app);
 void add_tables(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_precision(CLI::App& app);

@@ -331,6 +331,57 @@ TEST(Command, LoadVariesWhatItIsTold) {
   EXPECT_THAT(unsized.err(), ::testing::HasSubstr("1280x720"));
 }
 
+std::vector<std::string> tiny_load_report(const TemporaryFolder& folder) {
+  return {"load-report", "-o",     folder / "report", "--scene",     folder / "scene.json",
+          "--clients",   "2",      "--size",          "16x9",        "--format",
+          "exr",         "--vary", "camera",          "--vary",      "nothing",
+          "--seconds",   "0.1",    "--preset",        "airless_moon"};
+}
+
+/// By a daemon of its own, whatever settings the environment has for others.
+TEST(Command, LoadReportMeasuresEachClassOnceAndItsError) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  setenv("CYANOMETER_TOKEN", "secret", 1);
+  Program run(tiny_load_report(folder));
+  const int ended = run.wait();
+  unsetenv("CYANOMETER_TOKEN");
+  ASSERT_EQ(ended, 0) << run.err();
+  const std::string lines = read_file(folder / "report" / "points.jsonl");
+  EXPECT_EQ(count(lines, "{\"by\":{"), 6u) << lines;
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    const json found = json::parse(line);
+    if (found.contains("error")) {
+      EXPECT_LT(found.at("error").at("error"), 0.03) << line;
+    } else {
+      EXPECT_GT(found.at("point").at("frames_per_s"), 0) << line;
+      EXPECT_GT(found.at("point").at("cpu_s"), 0) << line;
+      EXPECT_GT(found.at("point").at("floor").at("store_ms"), 0) << line;
+      EXPECT_GT(found.at("point").at("floor").at("encode_ms"), 0) << line;
+      EXPECT_EQ(found.at("point").at("failed"), 0) << line;
+    }
+  }
+  EXPECT_THAT(read_file(folder / "report" / "report.md"), ::testing::HasSubstr("airless_moon"));
+  EXPECT_THAT(read_file(folder / "report" / "report.svg"), ::testing::StartsWith("<svg"));
+  Program again(tiny_load_report(folder));
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  EXPECT_TRUE(again.err().empty()) << again.err();
+  EXPECT_EQ(read_file(folder / "report" / "points.jsonl"), lines);
+}
+
+TEST(Command, LoadReportWritesWhatItHasWhenItsTimeIsOver) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  auto arguments = tiny_load_report(folder);
+  arguments.insert(arguments.end(), {"--minutes", "0.0001"});
+  Program run(arguments);
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("goes on"));
+  EXPECT_TRUE(read_file(folder / "report" / "points.jsonl").empty());
+  EXPECT_THAT(read_file(folder / "report" / "report.md"), ::testing::StartsWith("# Frames"));
+}
+
 TEST(Command, HealthProbesADaemon) {
   const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
   Program well({"health", url});
