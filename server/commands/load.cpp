@@ -123,8 +123,8 @@ void add_load(CLI::App& app) {
       "Times of frames are from when a request was due, so that one that could not be sent in "
       "time\ncounts as slow. Give an open load enough clients to be never late.\n"
       "CPU of the daemon is known where its metrics say process_cpu_seconds_total.\n"
-      "Examples: cyanometer load http://127.0.0.1:8080 --rate 500 --clients 256 --seconds 30\n"
-      "          cyanometer load --vary sun --size 1280x720 --format jpeg --clients 4");
+      "Example: cyanometer load http://127.0.0.1:8080 --rate 500 --clients 256 --seconds 30\n"
+      "Example: cyanometer load --vary sun --size 1280x720 --format jpeg --clients 4");
   command->callback([arguments] { load(*arguments); });
 }
 

@@ -175,8 +175,9 @@ void add_load_report(CLI::App& app) {
   command->add_option("--clients", settings.clients, "Only so many; may be repeated")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--size", arguments->sizes,
-                      "Only of this size, as 1280x720; may be repeated");
+  command->add_option(
+      "--size", arguments->sizes,
+      "Only of this size, as 1280x720; may be repeated; without it 360p, 720p and 1080p");
   command->add_option("--format", settings.formats, "Only these; may be repeated")
       ->check(CLI::IsMember(format_names()))
       ->capture_default_str();
@@ -190,18 +191,19 @@ void add_load_report(CLI::App& app) {
       ->add_option("--preset", settings.presets,
                    "Presets whose frames are held against the converged solution beside the "
                    "scene's; may be repeated")
-      ->check(CLI::IsMember(preset_names()));
+      ->check(CLI::IsMember(preset_names()))
+      ->capture_default_str();
   command->add_flag("--rates-only", arguments->rates_only, "Leaves the errors to a later run");
   command
       ->add_option("--minutes", arguments->minutes, "Begins nothing after so many; 0: no end")
       ->check(CLI::Range(0.0, 1e5));
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
   command->footer(
-      "Starts a daemon of its own. Long, and nothing else should work on the machine "
-      "meanwhile; a "
-      "run\nthat was stopped goes on. Errors come last, each measured once.\n"
-      "Examples: cyanometer load-report -o frames\n"
-      "          cyanometer load-report -o quick --clients 4 --size 640x360 --format jpeg "
+      "Starts a daemon of its own. Long; a run that was stopped goes on. Nothing else should "
+      "work "
+      "on\nthe machine meanwhile. Errors come last, each measured once.\n"
+      "Example: cyanometer load-report -o frames\n"
+      "Example: cyanometer load-report -o quick --clients 4 --size 640x360 --format jpeg "
       "--seconds 1 --rates-only");
   command->callback([arguments] { load_report(*arguments); });
 }

@@ -13,6 +13,7 @@ nlohmann::json unlit_scene(int width, int height, const std::string& format) {
   scene["image"] = {{"width", width},
                     {"height", height},
                     {"format", format},
+                    {"tone_map", "linear"},
                     {"show", nlohmann::json::array()}};
   return scene;
 }

@@ -6,8 +6,8 @@
 
 namespace cyanometer {
 
-/// A frame that sees neither planet nor air: all that is left to do is to store black pixels
-/// and, in formats that show them, to display them.
+/// A frame that sees neither planet nor air, the least that the engine can be asked for: black
+/// pixels are stored and, in formats that show them, displayed, by the passes of any frame.
 nlohmann::json unlit_scene(int width, int height, const std::string& format);
 
 struct Floor {

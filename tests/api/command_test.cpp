@@ -23,9 +23,10 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
-  for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
-                           "contact-sheet", "schema", "bench", "chart", "audit", "profile",
-                           "load", "compare", "composite", "explain", "tables", "stability"}) {
+  for (const auto* name :
+       {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
+        "bench", "chart", "audit", "profile", "load", "load-report", "compare", "composite",
+        "explain", "tables", "stability"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -38,6 +39,8 @@ TEST(Command, HelpListsWhatThereIsToChooseFrom) {
                                                         {"chart", "hillaire"},
                                                         {"chart", "titan"},
                                                         {"tables", "titan"},
+                                                        {"load", "atmosphere"},
+                                                        {"load-report", "titan"},
                                                         {"composite", "cd/m^2"}}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;

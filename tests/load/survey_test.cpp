@@ -128,6 +128,19 @@ TEST(Survey, SizesThatGetTheSameMethodShareAnError) {
   }
 }
 
+/// Scenes go to the judge as links, which must not be too long for a request.
+TEST(Survey, EveryUsualPresetIsJudgedHoweverItVaries) {
+  FakeDaemon daemon;
+  SurveySettings settings;
+  settings.sizes = {{16, 9}};
+  Survey survey;
+  EXPECT_GE(settings.presets.size(), 10u);
+  measure_errors(
+      {daemon.origin()}, settings, {}, [](const SurveyError&) {}, survey);
+  EXPECT_EQ(survey.errors.size(), 5 * (settings.presets.size() + 1));
+  EXPECT_EQ(daemon.judged, survey.errors.size());
+}
+
 TEST(Survey, PresetsAreJudgedByTheMethodThatTheSceneAsksFor) {
   FakeDaemon daemon;
   SurveySettings settings = small_survey();
