@@ -44,6 +44,9 @@ struct SurveyError {
   std::string method = {};  ///< with its options
   double stated = 0;        ///< what the frame said: a bound that is to hold in 95 % of frames
   double error = 0, low = 0, high = 0;  ///< measured, with its 95 % interval
+
+  /// The error or, where the reference's noise hides it, the most that it may be.
+  double told() const { return error > 0 ? error : high; }
 };
 
 struct Survey {

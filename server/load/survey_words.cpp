@@ -69,14 +69,18 @@ std::vector<const SurveyError*> errors_of(const Survey& survey, const FrameSize&
     if (FrameSize{error.width, error.height} == size && error.vary == vary)
       errors.push_back(&error);
   }
-  std::ranges::sort(errors, {}, &SurveyError::error);
+  std::ranges::sort(errors, {}, &SurveyError::told);
   return errors;
+}
+
+std::string told_in_words(const SurveyError& error) {
+  return (error.error > 0 ? "" : "< ") + in_percent(error.told());
 }
 
 std::string measured_error(const Survey& survey, const FrameSize& size,
                            const std::string& vary) {
   const auto errors = errors_of(survey, size, vary);
-  return errors.empty() ? "" : in_percent(errors[errors.size() / 2]->error);
+  return errors.empty() ? "" : told_in_words(*errors[errors.size() / 2]);
 }
 
 std::string words_of_way(const std::string& vary) {

@@ -24,6 +24,8 @@ const SurveyPoint& best_of(const std::vector<const SurveyPoint*>& points);
 /// Errors that were measured of frames that vary so, least first.
 std::vector<const SurveyError*> errors_of(const Survey& survey, const FrameSize& size,
                                           const std::string& vary);
+/// "1.2 %", or "< 1.2 %" where noise hides it.
+std::string told_in_words(const SurveyError& error);
 /// Their median in words; none where none was measured.
 std::string measured_error(const Survey& survey, const FrameSize& size,
                            const std::string& vary);

@@ -188,6 +188,14 @@ TEST(SurveyTable, ShowsTheBestItsRatioAndTheErrorBesideIt) {
               HasSubstr("| the scene | sun moves | 64 x 36 | 2 % | 1 % | 0.8 % to 1.2 % |"));
 }
 
+TEST(SurveyTable, AnErrorThatNoiseHidesIsNotSaidToBeNone) {
+  Survey survey = known_survey();
+  survey.errors = {{"titan", "sun", 64, 36, "auto", 0.02, 0, 0, 0.042}};
+  const std::string table = survey_table(survey, {});
+  EXPECT_THAT(table, HasSubstr("| 2 % | < 4.2 % | 0 % to 4.2 % |"));
+  EXPECT_THAT(table, HasSubstr("40.0 (2.50 x) | < 4.2 % |"));
+}
+
 TEST(SurveyTable, RowsHaveAsManyCellsAsTheirHeads) {
   std::istringstream lines(survey_table(known_survey(), {}));
   std::ptrdiff_t cells = 0;
