@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/cache_folder.h"
+#include "engine/image/encode.h"
 #include "engine/scene/document.h"
 #include "engine/surface/maps.h"
 
@@ -54,8 +55,8 @@ int run_command(int count, char** arguments) {
        {add_serve,     add_render,        add_radiance,  add_plan,        add_compare,
         add_composite, add_explain,       add_attribute, add_experiments, add_devices,
         add_health,    add_contact_sheet, add_schema,    add_bench,       add_chart,
-        add_audit,     add_profile,       add_load,      add_tables,      add_stability,
-        add_precision}) {
+        add_audit,     add_profile,       add_load,      add_load_report, add_tables,
+        add_stability, add_precision}) {
     add(app);
   }
   try {
@@ -117,6 +118,12 @@ std::vector<std::string> preset_names() {
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const MethodDescription& method : methods()) names.push_back(method.name);
+  return names;
+}
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const Encoding& each : encodings()) names.emplace_back(each.name);
   return names;
 }
 

@@ -40,9 +40,10 @@ void write_file(const std::string& path, const std::string& bytes);
 /// An engine on the device whose name has this part, with the profiles that the daemon keeps.
 Engine command_engine(const std::string& device);
 
-/// For options that take a preset, or a method.
+/// For options that take a preset, a method, or an image's format.
 std::vector<std::string> preset_names();
 std::vector<std::string> method_names();
+std::vector<std::string> format_names();
 
 /// A watch that SIGINT and SIGTERM cancel and that shows a bar on a terminal.
 Watch command_watch();
@@ -69,6 +70,7 @@ void add_chart(CLI::App& app);
 void add_audit(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_load(CLI::App& app);
+void add_load_report(CLI::App& app);
 void add_tables(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_precision(CLI::App& app);

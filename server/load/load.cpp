@@ -9,8 +9,12 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "server/load/daemon_time.h"
+#include "server/load/whole_image.h"
 
 namespace cyanometer {
 namespace {
@@ -40,17 +44,39 @@ std::vector<double> arrivals(double rate, double seconds) {
   return times;
 }
 
-/// Of other types it is the length alone that tells, and the client looks at that.
-bool is_cut_short(const httplib::Response& answer) {
-  const std::string& png = answer.body;
-  if (answer.get_header_value("Content-Type") != "image/png") return false;
-  return !(png.starts_with("\x89PNG") && png.size() > 12 &&
-           png.compare(png.size() - 8, 4, "IEND") == 0);
+httplib::Headers credentials(const LoadSettings& settings) {
+  if (settings.token.empty()) return {};
+  return {{"Authorization", "Bearer " + settings.token}};
+}
+
+/// `queue;dur=0.012, prepare;dur=3.4`: into each stage its ms.
+void note_stages(const std::string& server_timing, LoadReport& report) {
+  constexpr std::string_view duration = ";dur=";
+  std::istringstream stages(server_timing);
+  for (std::string stage; std::getline(stages >> std::ws, stage, ',');) {
+    const auto at = stage.find(duration);
+    if (at == std::string::npos) continue;
+    report.stage_ms[stage.substr(0, at)].push_back(
+        std::strtod(stage.c_str() + at + duration.size(), nullptr));
+  }
+}
+
+void note_frame(const httplib::Response& answer, LoadReport& report) {
+  const auto field = [&](const char* name) { return answer.get_header_value(name); };
+  report.truncated += !is_whole_image(answer.body, field("Content-Type"));
+  report.kept += field("Cache-Status").find("hit") != std::string::npos;
+  report.unmet += field("Cyanometer-Met") == "false";
+  if (!answer.has_header("Cyanometer-Method")) return;
+  report.methods.insert(field("Cyanometer-Method") + " " + field("Cyanometer-Options"));
+  report.stated_error =
+      std::max(report.stated_error, std::strtod(field("Cyanometer-Error").c_str(), nullptr));
+  note_stages(field("Server-Timing"), report);
 }
 
 class Generator {
  public:
-  explicit Generator(const LoadSettings& settings) : settings_(settings) {
+  explicit Generator(const LoadSettings& settings)
+      : settings_(settings), motion_(settings.scene, settings.vary) {
     if (settings.rate) due_ = arrivals(*settings.rate, settings.seconds);
   }
 
@@ -96,23 +122,24 @@ class Generator {
     }
   }
 
+  httplib::Result answer_to(httplib::Client& client, std::size_t i) const {
+    const httplib::Headers headers = credentials(settings_);
+    if (!settings_.get.empty()) return client.Get(settings_.get, headers);
+    return client.Post("/v1/render", headers, motion_.frame(settings_.first + i).dump(),
+                       "application/json");
+  }
+
   void ask(httplib::Client& client, std::size_t i, Clock::time_point due,
            LoadReport& report) const {
-    json scene = settings_.scene;
-    // A little brighter each time: another frame of the same atmosphere and plan.
-    if (settings_.vary)
-      scene["image"]["exposure_ev"] = 1e-9 * static_cast<double>(settings_.first + i);
-    httplib::Headers headers;
-    if (!settings_.token.empty()) headers.emplace("Authorization", "Bearer " + settings_.token);
     const auto sent = Clock::now();
-    const auto answer = client.Post("/v1/render", headers, scene.dump(), "application/json");
+    const auto answer = answer_to(client, i);
     const auto done = Clock::now();
     report.late += ms_between(due, sent) > 10;
     const int status = answer ? answer->status : 0;
     ++report.statuses[status];
     if (status == 200) {
       report.frame_ms.push_back(ms_between(due, done));
-      report.truncated += is_cut_short(*answer);
+      note_frame(*answer, report);
     } else if (status == 429 || status == 503) {
       report.reject_ms.push_back(ms_between(sent, done));
       report.without_retry_after += !answer->has_header("Retry-After");
@@ -120,19 +147,35 @@ class Generator {
   }
 
   static void add(const LoadReport& part, LoadReport& all) {
+    const auto append = [](const std::vector<double>& from, std::vector<double>& to) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
     for (const auto& [status, count] : part.statuses) all.statuses[status] += count;
-    all.frame_ms.insert(all.frame_ms.end(), part.frame_ms.begin(), part.frame_ms.end());
-    all.reject_ms.insert(all.reject_ms.end(), part.reject_ms.begin(), part.reject_ms.end());
+    for (const auto& [stage, ms] : part.stage_ms) append(ms, all.stage_ms[stage]);
+    append(part.frame_ms, all.frame_ms);
+    append(part.reject_ms, all.reject_ms);
+    all.methods.insert(part.methods.begin(), part.methods.end());
+    all.stated_error = std::max(all.stated_error, part.stated_error);
     all.without_retry_after += part.without_retry_after;
     all.truncated += part.truncated;
+    all.kept += part.kept;
+    all.unmet += part.unmet;
     all.late += part.late;
   }
 
   const LoadSettings& settings_;
+  Motion motion_;
   std::vector<double> due_;
   Clock::time_point start_;
   std::atomic<std::size_t> next_{0};
 };
+
+std::optional<double> daemon_seconds(httplib::Client& client, const LoadSettings& settings) {
+  if (settings.daemon > 0) return process_seconds(settings.daemon);
+  const auto metrics = client.Get("/metrics", credentials(settings));
+  if (!metrics || metrics->status != 200) return std::nullopt;
+  return metric_of(metrics->body, "process_cpu_seconds_total");
+}
 
 }  // namespace
 
@@ -154,7 +197,11 @@ LoadReport run_load(const LoadSettings& settings) {
         settings.origin + " takes no requests: " +
         (answer ? std::to_string(answer->status) : httplib::to_string(answer.error())));
   }
-  return Generator(settings).run();
+  const auto before = daemon_seconds(client, settings);
+  LoadReport report = Generator(settings).run();
+  const auto after = daemon_seconds(client, settings);
+  if (before && after) report.daemon_cpu_s = *after - *before;
+  return report;
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -169,18 +216,28 @@ json load_document(const LoadReport& report) {
   for (const auto& [status, count] : report.statuses) {
     statuses[status == 0 ? "none" : std::to_string(status)] = count;
   }
-  return {
-      {"seconds", report.seconds},
-      {"statuses", statuses},
-      {"frames_per_s", report.frames_per_s()},
-      {"frame_ms",
-       {{"p50", quantile(report.frame_ms, 0.5)}, {"p99", quantile(report.frame_ms, 0.99)}}},
-      {"reject_ms",
-       {{"p50", quantile(report.reject_ms, 0.5)}, {"p99", quantile(report.reject_ms, 0.99)}}},
-      {"without_retry_after", report.without_retry_after},
-      {"truncated", report.truncated},
-      {"late", report.late},
-      {"generator_cpu_s", report.cpu_s}};
+  json stages = json::object();
+  for (const auto& [stage, ms] : report.stage_ms) stages[stage] = quantile(ms, 0.5);
+  const auto times = [](const std::vector<double>& ms) {
+    return json{{"p50", quantile(ms, 0.5)}, {"p99", quantile(ms, 0.99)}};
+  };
+  const auto frames = static_cast<double>(report.frame_ms.size());
+  const bool told = report.daemon_cpu_s && frames > 0;
+  return {{"seconds", report.seconds},
+          {"statuses", statuses},
+          {"frames_per_s", report.frames_per_s()},
+          {"frame_ms", times(report.frame_ms)},
+          {"stage_ms", stages},
+          {"stated_error", report.stated_error},
+          {"methods", report.methods},
+          {"unmet", report.unmet},
+          {"kept", report.kept},
+          {"reject_ms", times(report.reject_ms)},
+          {"without_retry_after", report.without_retry_after},
+          {"truncated", report.truncated},
+          {"late", report.late},
+          {"frame_cpu_s", told ? json(*report.daemon_cpu_s / frames) : json()},
+          {"generator_cpu_s", report.cpu_s}};
 }
 
 }  // namespace cyanometer

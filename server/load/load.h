@@ -1,11 +1,16 @@
 // Load on a daemon, and what came of it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "server/load/variation.h"
 
 namespace cyanometer {
 
@@ -17,9 +22,12 @@ struct LoadSettings {
   std::optional<double> rate;
   double seconds = 10;
   nlohmann::json scene = nlohmann::json::object();
-  bool vary = true;       ///< every scene another one, so that none has been kept
-  std::size_t first = 0;  ///< number of the first scene: another one, another run
+  Variation vary = Variation::exposure;
+  std::size_t first = 0;  ///< number of the first frame: another one, another run
+  std::string get;        ///< asks for this path instead of frames
   std::string token;
+  pid_t daemon =
+      0;  ///< its process, where it is one of this machine; 0: /metrics says its time
 };
 
 struct LoadReport {
@@ -27,10 +35,17 @@ struct LoadReport {
   std::vector<double> frame_ms;         ///< of answers 200, from when the request was due
   std::vector<double> reject_ms;        ///< of answers 429 and 503, from when it was sent
   std::size_t without_retry_after = 0;  ///< of those
-  std::size_t truncated = 0;            ///< answers 200 that are PNGs without an end
+  std::size_t truncated = 0;            ///< answers 200 that are images without an end
+  std::size_t kept = 0;                 ///< answers 200 that no work was done for
+  std::size_t unmet = 0;                ///< answers 200 that say to be worse than was asked
   std::size_t late = 0;                 ///< sent over 10 ms after they were due
   double seconds = 0;
-  double cpu_s = 0;  ///< of the generator itself
+  double cpu_s = 0;                    ///< of the generator itself
+  std::optional<double> daemon_cpu_s;  ///< where it is known
+  /// What frames say of themselves: the largest error, and all methods with their options.
+  double stated_error = 0;
+  std::set<std::string> methods;
+  std::map<std::string, std::vector<double>> stage_ms;  ///< "queue", "prepare", ...
 
   double frames_per_s() const;
   std::size_t sent() const;

@@ -33,6 +33,7 @@ Frames::Flown Frames::render(const Order& order, const Watch& watch) {
                                     .work = [&](Engine& engine, const Watch& w) {
                                       frame = engine.render(order.scene, order.plan, w);
                                     }});
+  order.rendered();
   const Attention attention(watch);
   return encoded(frame, order.scene, ticket);
 }

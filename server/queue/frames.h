@@ -40,6 +40,9 @@ class Frames {
     std::size_t frame_bytes = 0;
     std::optional<Place> place = {};
     bool keep = true;
+    /// Called when the device has done this frame, which is not encoded yet; not where another
+    /// rendered it.
+    std::function<void()> rendered = [] {};
   };
   /// @throws as RenderQueue::run
   Got get(const Order& order, const Watch& watch);

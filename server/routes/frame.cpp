@@ -87,7 +87,7 @@ PlannedFrame plan_frame(const SceneRequest& asked, const std::string& client, Se
 }
 
 Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Service& service,
-                      const Watch& watch, bool keep) {
+                      const Watch& watch, bool keep, const std::function<void()>& rendered) {
   const Scene& scene = planned.asked.scene;
   return service.frames.get({.scene = scene,
                              .plan = planned.plan,
@@ -95,7 +95,8 @@ Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Se
                              .client = client,
                              .frame_bytes = frame_bytes(scene, planned.plan),
                              .place = planned.place,
-                             .keep = keep && !scene.method.max_ms},
+                             .keep = keep && !scene.method.max_ms,
+                             .rendered = rendered},
                             watch);
 }
 

@@ -32,9 +32,11 @@ void check_cost(const Plan& plan, const Config& config);
 std::string frame_tag(const SceneRequest& asked, const Plan& plan, const Service& service);
 
 /// @param keep  for requests to come, where there is room
+/// @param rendered  as in Frames::Order
 /// @throws as RenderQueue::run
-Frames::Got get_frame(const PlannedFrame& planned, const std::string& client, Service& service,
-                      const Watch& watch, bool keep);
+Frames::Got get_frame(
+    const PlannedFrame& planned, const std::string& client, Service& service,
+    const Watch& watch, bool keep, const std::function<void()>& rendered = [] {});
 
 /// What is said of a frame before it is there: its type, method, options, error.
 Fields planned_fields(const PlannedFrame& planned);

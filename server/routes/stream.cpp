@@ -1,4 +1,7 @@
 // POST and GET /v1/stream: frames one after the other in one answer.
+#include <atomic>
+#include <deque>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "server/current_problem.h"
@@ -25,8 +28,31 @@ struct Part {
   bool last = false;
 };
 
-/// A stream while it is sent, on its connection's own thread: the next frame is begun when the
-/// last one has been taken, so that a slow reader slows itself alone.
+/// The turn of a frame to be planned and rendered: the next one's comes when it is over, and
+/// fails as it failed.
+class Turn {
+ public:
+  ~Turn() { end(); }
+  void end() {
+    if (!std::exchange(ended_, true)) over_.set_value();
+  }
+  void fail(const std::exception_ptr& error) {
+    if (!std::exchange(ended_, true)) over_.set_exception(error);
+  }
+  std::shared_future<void> over() { return over_.get_future().share(); }
+
+ private:
+  std::promise<void> over_;
+  bool ended_ = false;
+};
+
+/// While one frame is sent, on the connection's own thread, one is encoded and one rendered: no
+/// more, so that a slow reader slows itself alone.
+constexpr std::size_t most_ahead = 2;
+/// Of frames that are this part of the memory of all, or more, none is made ahead: one that
+/// waits for memory that its own reader holds up would stand in the way of others.
+constexpr std::size_t large_part = 8;
+
 class Stream {
  public:
   Stream(Request request, Service& service, Sequence sequence)
@@ -44,7 +70,7 @@ class Stream {
         check_memory(aim_->asked.scene, aim_->plan, service_.config);
       });
     }
-    first_ = next(watch);
+    first_ = next(watch, [] {});
   }
 
   void send(const Write& write) {
@@ -53,6 +79,8 @@ class Stream {
       bytes_ += bytes.size();
       return write(bytes);
     });
+    ended_ = true;
+    ahead_.clear();
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     log_line(spdlog::level::info, {{"event", "stream ended"},
                                    {"id", request_.id},
@@ -66,22 +94,52 @@ class Stream {
   bool send_all(const Write& write) {
     if (!write("--" + boundary + "\r\n")) return false;
     Part part = *std::exchange(first_, std::nullopt);
-    for (;;) {
-      if (!send_part(write, part)) return false;
-      if (part.last) return true;
-      part.frame = {};  // so that it is not held while the next is made
-      try {
-        const Watch watch = service_.watch(request_);
-        const int place = next_;
-        part = patiently(watch, [&] {
-          next_ = place;
-          return next(watch);
-        });
-      } catch (...) {
-        send_problem(write, current_problem());
-        return false;
+    try {
+      for (;;) {
+        while (ahead_.size() < most_ahead && may_go_ahead()) begin_next();
+        if (!send_part(write, part)) return false;
+        if (part.last) return true;
+        part.frame = {};  // so that it is not held while the next is waited for
+        if (ahead_.empty()) begin_next();
+        part = ahead_.front().get();
+        ahead_.pop_front();
       }
+    } catch (...) {
+      ended_ = true;
+      send_problem(write, current_problem());
+      return false;
     }
+  }
+
+  bool may_go_ahead() const {
+    if (sequence_.refines || begun_ == sequence_.count) return false;
+    return large_part * frame_bytes(sequence_.scene(begun_).scene) <=
+           service_.config.frame_bytes();
+  }
+
+  void begin_next() {
+    ++begun_;
+    const auto turn = std::make_shared<Turn>();
+    ahead_.push_back(std::async(std::launch::async,
+                                [this, turn, before = std::exchange(turn_over_, turn->over())] {
+                                  if (before.valid()) before.get();
+                                  return make(*turn);
+                                }));
+  }
+
+  Part make(Turn& turn) try {
+    Watch watch = service_.watch(request_);
+    watch.gone = [this, left = watch.gone] { return ended_ || left(); };
+    const int place = next_;
+    Part part = patiently(watch, [&] {
+      next_ = place;
+      return next(watch, [&turn] { turn.end(); });
+    });
+    turn.end();  // also where another had rendered it
+    return part;
+  } catch (...) {
+    turn.fail(std::current_exception());
+    throw;
   }
 
   bool send_part(const Write& write, const Part& part) {
@@ -99,25 +157,27 @@ class Stream {
           std::to_string(body.size()) + "\r\n\r\n" + body + "\r\n--" + boundary + "--\r\n");
   }
 
-  Part next(const Watch& watch) {
+  /// @param rendered  called when another one may be planned and rendered
+  Part next(const Watch& watch, const std::function<void()>& rendered) {
     PlannedFrame planned;
     Frames::Got got;
-    bool last = false;
+    int number = 0;
     sequence_.within(next_, [&] {
       planned = next_plan(watch);
       check_memory(planned.asked.scene, planned.plan, service_.config);
-      last = next_ == sequence_.count;
-      got = get_frame(planned, request_.peer, service_, watch, last);
+      shown_ = planned.plan;
+      number = next_;
+      got = get_frame(planned, request_.peer, service_, watch, number == sequence_.count,
+                      rendered);
     });
-    shown_ = planned.plan;
     Fields fields = planned_fields(planned);
     fields.emplace_back("Content-Length", std::to_string(got.frame->bytes.size()));
     fields.emplace_back("Cyanometer-Frame",
-                        std::to_string(next_) + "/" + std::to_string(sequence_.count));
+                        std::to_string(number) + "/" + std::to_string(sequence_.count));
     for (auto& field : frame_fields(planned, got, service_)) fields.push_back(std::move(field));
     std::string head;
     for (const auto& [name, value] : fields) head += name + ": " + value + "\r\n";
-    return {head + "\r\n", got, last};
+    return {head + "\r\n", got, number == sequence_.count};
   }
 
   /// Leaves `next_` behind the frame.
@@ -143,9 +203,13 @@ class Stream {
   std::optional<PlannedFrame> aim_;  ///< of a refinement
   Plan shown_;                       ///< of the frame before
   std::optional<Part> first_;
-  int next_ = 0;
+  int next_ = 0;  ///< of the frame whose turn it is
+  int begun_ = 1;
+  std::shared_future<void> turn_over_;  ///< of the frame begun last
   int sent_ = 0;
   std::size_t bytes_ = 0;
+  std::atomic<bool> ended_ = false;  ///< nothing more will be sent
+  std::deque<std::future<Part>> ahead_;
 };
 
 Answer stream(Sequence sequence, const Request& request, Service& service, const Watch& watch) {

@@ -23,9 +23,10 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 TEST(Command, EveryCommandHelpsWithAnExample) {
-  for (const auto* name : {"serve", "render", "radiance", "plan", "devices", "health",
-                           "contact-sheet", "schema", "bench", "chart", "audit", "profile",
-                           "load", "compare", "composite", "explain", "tables", "stability"}) {
+  for (const auto* name :
+       {"serve", "render", "radiance", "plan", "devices", "health", "contact-sheet", "schema",
+        "bench", "chart", "audit", "profile", "load", "load-report", "compare", "composite",
+        "explain", "tables", "stability"}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
     EXPECT_THAT(run.out(), ::testing::HasSubstr("Example: ")) << name;
@@ -38,6 +39,8 @@ TEST(Command, HelpListsWhatThereIsToChooseFrom) {
                                                         {"chart", "hillaire"},
                                                         {"chart", "titan"},
                                                         {"tables", "titan"},
+                                                        {"load", "atmosphere"},
+                                                        {"load-report", "titan"},
                                                         {"composite", "cd/m^2"}}) {
     Program run({name, "--help"});
     EXPECT_EQ(run.wait(), 0) << name;
@@ -305,6 +308,81 @@ TEST(Command, LoadAsksForFramesThatNoOtherRunLeftAndOfAnyFormat) {
     EXPECT_EQ(report.at("truncated"), 0);
   }
   EXPECT_EQ(kept(), before);
+}
+
+TEST(Command, LoadVariesWhatItIsTold) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
+  for (const std::string vary : {"sun", "nothing"}) {
+    Program run({"load", url, "--clients", "1", "--seconds", "0.3", "--scene",
+                 folder / "scene.json", "--vary", vary, "--size", "16x9", "--format", "exr",
+                 "--json"});
+    ASSERT_EQ(run.wait(), 0) << run.err();
+    const json report = json::parse(run.out());
+    const auto frames = report.at("statuses").value("200", std::size_t{0});
+    EXPECT_GE(frames, 2u) << report;
+    EXPECT_EQ(report.at("truncated"), 0);
+    EXPECT_EQ(report.at("kept").get<std::size_t>() + 1 >= frames, vary == "nothing") << report;
+    EXPECT_GT(report.at("stated_error"), 0);
+    EXPECT_TRUE(report.at("stage_ms").contains("render"));
+  }
+  Program refused({"load", url, "--vary", "moods"});
+  EXPECT_EQ(refused.wait(), 2);
+  Program unsized({"load", url, "--size", "16"});
+  EXPECT_EQ(unsized.wait(), 2);
+  EXPECT_THAT(unsized.err(), ::testing::HasSubstr("1280x720"));
+}
+
+std::vector<std::string> tiny_load_report(const TemporaryFolder& folder) {
+  return {"load-report", "-o",     folder / "report", "--scene",     folder / "scene.json",
+          "--clients",   "2",      "--size",          "16x9",        "--format",
+          "exr",         "--vary", "camera",          "--vary",      "nothing",
+          "--seconds",   "0.1",    "--preset",        "airless_moon"};
+}
+
+/// By a daemon of its own, whatever settings the environment has for others.
+TEST(Command, LoadReportMeasuresEachClassOnceAndItsError) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  setenv("CYANOMETER_TOKEN", "secret", 1);
+  Program run(tiny_load_report(folder));
+  const int ended = run.wait();
+  unsetenv("CYANOMETER_TOKEN");
+  ASSERT_EQ(ended, 0) << run.err();
+  const std::string lines = read_file(folder / "report" / "points.jsonl");
+  EXPECT_EQ(count(lines, "{\"by\":{"), 6u) << lines;
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    const json found = json::parse(line);
+    if (found.contains("error")) {
+      EXPECT_LT(found.at("error").at("error"), 0.03) << line;
+    } else {
+      EXPECT_GT(found.at("point").at("frames_per_s"), 0) << line;
+      EXPECT_GT(found.at("point").at("cpu_s"), 0) << line;
+      EXPECT_GT(found.at("point").at("floor").at("store_ms"), 0) << line;
+      EXPECT_GT(found.at("point").at("floor").at("encode_ms"), 0) << line;
+      EXPECT_EQ(found.at("point").at("failed"), 0) << line;
+    }
+  }
+  EXPECT_THAT(read_file(folder / "report" / "report.md"), ::testing::HasSubstr("airless_moon"));
+  EXPECT_THAT(read_file(folder / "report" / "report.svg"), ::testing::StartsWith("<svg"));
+  Program again(tiny_load_report(folder));
+  EXPECT_EQ(again.wait(), 0) << again.err();
+  EXPECT_TRUE(again.err().empty()) << again.err();
+  EXPECT_EQ(read_file(folder / "report" / "points.jsonl"), lines);
+}
+
+TEST(Command, LoadReportWritesWhatItHasWhenItsTimeIsOver) {
+  TemporaryFolder folder;
+  std::ofstream(folder / "scene.json") << tiny_scene().dump();
+  auto arguments = tiny_load_report(folder);
+  arguments.insert(arguments.end(), {"--minutes", "0.0001"});
+  Program run(arguments);
+  EXPECT_EQ(run.wait(), 0) << run.err();
+  EXPECT_THAT(run.err(), ::testing::HasSubstr("goes on"));
+  EXPECT_TRUE(read_file(folder / "report" / "points.jsonl").empty());
+  EXPECT_THAT(read_file(folder / "report" / "report.md"), ::testing::StartsWith("# Frames"));
 }
 
 TEST(Command, HealthProbesADaemon) {

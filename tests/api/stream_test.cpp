@@ -299,6 +299,19 @@ TEST(Stream, WhatOnlyWorkFindsIsPointedToInTheRequest) {
   EXPECT_EQ(json::parse(parts[1].body).value("pointer", ""), "/to/planet.surface.relief_km");
 }
 
+/// Frames are made ahead, so the third may have failed before the first was taken.
+TEST(Stream, FramesBeforeOneThatCannotBeMadeAllCome) {
+  const json ok = json::object(), bad = planet_with_relief(100);
+  const auto answer = post_stream({{"scene", tiny_scene()}, {"frames", {ok, ok, bad, ok, ok}}});
+  ASSERT_TRUE(answer);
+  const auto parts = parts_of(answer->body);
+  ASSERT_EQ(parts.size(), 3u) << answer->body;
+  EXPECT_EQ(parts[0].field("Cyanometer-Frame"), "1/5");
+  EXPECT_EQ(parts[1].field("Cyanometer-Frame"), "2/5");
+  EXPECT_EQ(json::parse(parts[2].body).value("pointer", ""),
+            "/frames/2/planet/surface/relief_km");
+}
+
 const json summer_noon{
     {"sun",
      {{"place",
@@ -375,6 +388,38 @@ TEST(Stream, AReaderThatDoesNotReadHoldsUpItselfAlone) {
   EXPECT_EQ(answer->get_header_value("Cache-Status"), "cyanometer; fwd=miss");
   EXPECT_EQ(queue.depth(), 0u);
 }
+
+/// Frames of 12 MiB each, soon made, of which no buffers between here and there hold one.
+const std::string huge_link =
+    "image.width=1024&image.height=1024&image.format=npy&method.name=raymarch"
+    "&method.scattering_orders=0&camera.altitude_km=1e5&camera.pitch_deg=90";
+
+/// Waits until the device has had nothing to do for half a second.
+void wait_until_idle(const RenderQueue& queue) {
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  for (int idle = 0; idle < 10; ++idle) {
+    std::this_thread::sleep_for(50ms);
+    if (queue.busy() || queue.depth() > 0) idle = 0;
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+  }
+}
+
+/// How many frames a daemon of so much memory for them renders for a reader that does not read.
+std::uint64_t rendered_unread(double frame_memory_mb) {
+  Config config = free_port();
+  config.frame_memory_mb = frame_memory_mb;
+  Daemon daemon(config);
+  daemon.start();
+  wait_until_ready(daemon);
+  RawClient slow(daemon.port());
+  slow.send(stream_request(huge_link + "&frames=50&to.sun.elevation_deg=60"));
+  wait_until_idle(daemon.service().queue);
+  return daemon.service().frames.counts().rendered;
+}
+
+TEST(Stream, WhileAFrameIsSentTwoMoreAreMade) { EXPECT_EQ(rendered_unread(2048), 3u); }
+
+TEST(Stream, OfLargeFramesNoneIsMadeAhead) { EXPECT_EQ(rendered_unread(64), 1u); }
 
 TEST(Stream, StoppingFinishesIt) {
   Daemon daemon(free_port());
