@@ -38,7 +38,8 @@ extern const std::string large_link;
 /// A connection on which any bytes can be sent.
 class RawClient {
  public:
-  explicit RawClient(int port);
+  /// @param from  an address of this machine
+  explicit RawClient(int port, const std::string& from = "127.0.0.1");
   RawClient() : RawClient(shared_daemon().port()) {}
   ~RawClient();
   RawClient(const RawClient&) = delete;

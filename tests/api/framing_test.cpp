@@ -293,34 +293,6 @@ TEST(Connections, WhoDripsIsGivenUpThoughItTakesBytesAllTheTime) {
   EXPECT_FALSE(is_taken(4 * mib, mib / 128));
 }
 
-TEST(Connections, OneMoreThanThereAreThreadsIsRefused) {
-  Config config = free_port();
-  config.threads = 2;
-  Daemon daemon(config);
-  daemon.start();
-  RawClient first(daemon.port()), second(daemon.port());
-  first.send(get_text());
-  second.send(get_text());
-  EXPECT_EQ(status_of(first.receive_one()), 200);
-  EXPECT_EQ(status_of(second.receive_one()), 200);
-  RawClient third(daemon.port());
-  const auto answer = third.receive();
-  EXPECT_EQ(status_of(answer), 503);
-  EXPECT_NE(answer.find("Retry-After: 1"), std::string::npos);
-}
-
-TEST(Connections, IdleOnesMakeRoomWhereThreadsAreFew) {
-  Config config = free_port();
-  config.threads = 2;
-  Daemon daemon(config);
-  daemon.start();
-  RawClient first(daemon.port()), second(daemon.port());
-  EXPECT_EQ(first.receive(), "");
-  RawClient third(daemon.port());
-  third.send(get_text(closing));
-  EXPECT_EQ(status_of(third.receive()), 200);
-}
-
 TEST(Connections, APortIsNotShared) {
   Config config = free_port();
   config.listen = "127.0.0.1:" + std::to_string(shared_daemon().port());
