@@ -11,6 +11,8 @@
 namespace cyanometer {
 namespace {
 
+using nlohmann::json;
+
 struct LoadArguments {
   LoadSettings settings;
   std::string scene;
@@ -23,6 +25,7 @@ void print(const LoadReport& report) {
     std::printf("%-12s %8zu\n", status == 0 ? "no answer" : std::to_string(status).c_str(),
                 count);
   }
+  std::printf("asked        %8.1f a second\n", report.asked_per_s());
   std::printf("frames       %8.1f a second, p50 %.1f ms, p99 %.1f ms, %zu truncated\n",
               report.frames_per_s(), quantile(report.frame_ms, 0.5),
               quantile(report.frame_ms, 0.99), report.truncated);
@@ -38,12 +41,14 @@ void print(const LoadReport& report) {
 void load(LoadArguments arguments) {
   LoadSettings& settings = arguments.settings;
   if (arguments.rate > 0) settings.rate = arguments.rate;
-  settings.vary = !arguments.same;
   settings.first = std::random_device{}() / 4;  // or a second run would meet the first one's
-  if (!arguments.scene.empty()) settings.scene = read_document(arguments.scene);
-  if (!settings.scene.is_object()) {
+  json scene{{"image", {{"width", 64}, {"height", 36}}}};
+  if (!arguments.scene.empty()) scene = read_document(arguments.scene);
+  if (!scene.is_object()) {
     throw CommandError(exit_refused, arguments.scene + " is no scene");
   }
+  settings.scene =
+      arguments.same ? [scene](std::size_t) { return scene; } : ever_brighter(scene);
   const LoadReport report = run_load(settings);
   if (arguments.as_json) {
     std::cout << load_document(report).dump(1) << "\n";
@@ -58,7 +63,6 @@ void add_load(CLI::App& app) {
   auto* command = app.add_subcommand("load", "Load a daemon and say what it bears");
   const auto arguments = std::make_shared<LoadArguments>();
   LoadSettings& settings = arguments->settings;
-  settings.scene = {{"image", {{"width", 64}, {"height", 36}}}};
   command->add_option("url", settings.origin, "Its address")->capture_default_str();
   command
       ->add_option("--clients", settings.clients, "Connections, each with one request at once")
@@ -70,13 +74,17 @@ void add_load(CLI::App& app) {
                    "each client asks when it has its answer")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command->add_option("--seconds", settings.seconds, "How long")
+  command
+      ->add_option("--seconds", settings.seconds,
+                   "How long; rates are of what was asked and answered in that time")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--scene", arguments->scene,
                       "Scene document, - is standard input; without it, 64 x 36 pixels");
   command->add_flag("--same", arguments->same,
                     "The same scene each time; else each another frame of the same plan");
+  command->add_option("--from", settings.sources,
+                      "Addresses of this machine from which the clients ask, in turn");
   command->add_option("--token", settings.token, "The daemon's bearer token")
       ->envname("CYANOMETER_TOKEN");
   command->add_flag("--json", arguments->as_json, "The figures as JSON");

@@ -118,6 +118,9 @@ void HttpServer::admit(int socket, ThreadPool& pool) {
 void HttpServer::serve_and_close(int socket) {
   const int on = 1;
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  // Of a buffer of MiB the system would say for long that no byte was taken, of a slow reader.
+  const int unsent_bytes = 131072;
+  setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_bytes, sizeof(unsent_bytes));
   Connection connection(socket, wake_, options_.limits);
   ++connections_;
   try {

@@ -63,11 +63,12 @@ class Generator {
       start_ = Clock::now();
     });
     for (auto& part : parts) {
-      threads.emplace_back([&] { be_a_client(connected, part); });
+      const std::size_t number = threads.size();
+      threads.emplace_back([&, number] { be_a_client(number, connected, part); });
     }
     for (auto& thread : threads) thread.join();
     LoadReport all;
-    all.seconds = ms_between(start_, Clock::now()) / 1000;
+    all.seconds = settings_.seconds;
     all.cpu_s = cpu_seconds() - cpu_before;
     for (const auto& part : parts) add(part, all);
     return all;
@@ -75,8 +76,10 @@ class Generator {
 
  private:
   template <class Barrier>
-  void be_a_client(Barrier& connected, LoadReport& report) {
+  void be_a_client(std::size_t number, Barrier& connected, LoadReport& report) {
     httplib::Client client(settings_.origin);
+    const auto& sources = settings_.sources;
+    if (!sources.empty()) client.set_interface(sources[number % sources.size()]);
     client.set_keep_alive(true);
     client.set_tcp_nodelay(true);
     client.set_read_timeout(600);
@@ -89,7 +92,7 @@ class Generator {
         if (i >= due_.size()) return;
         due = start_ + std::chrono::nanoseconds(static_cast<std::int64_t>(due_[i] * 1e9));
         std::this_thread::sleep_until(due);
-      } else if (ms_between(start_, due) >= settings_.seconds * 1000) {
+      } else if (!in_time(due)) {
         return;
       }
       ask(client, i, due, report);
@@ -98,25 +101,28 @@ class Generator {
 
   void ask(httplib::Client& client, std::size_t i, Clock::time_point due,
            LoadReport& report) const {
-    json scene = settings_.scene;
-    // A little brighter each time: another frame of the same atmosphere and plan.
-    if (settings_.vary)
-      scene["image"]["exposure_ev"] = 1e-9 * static_cast<double>(settings_.first + i);
+    const std::string scene = settings_.scene(settings_.first + i).dump();
     httplib::Headers headers;
     if (!settings_.token.empty()) headers.emplace("Authorization", "Bearer " + settings_.token);
     const auto sent = Clock::now();
-    const auto answer = client.Post("/v1/render", headers, scene.dump(), "application/json");
+    const auto answer = client.Post("/v1/render", headers, scene, "application/json");
     const auto done = Clock::now();
     report.late += ms_between(due, sent) > 10;
+    report.asked += in_time(sent);
     const int status = answer ? answer->status : 0;
     ++report.statuses[status];
     if (status == 200) {
       report.frame_ms.push_back(ms_between(due, done));
+      report.frames += in_time(done);
       report.truncated += is_cut_short(*answer);
     } else if (status == 429 || status == 503) {
       report.reject_ms.push_back(ms_between(sent, done));
       report.without_retry_after += !answer->has_header("Retry-After");
     }
+  }
+
+  bool in_time(Clock::time_point when) const {
+    return ms_between(start_, when) < settings_.seconds * 1000;
   }
 
   static void add(const LoadReport& part, LoadReport& all) {
@@ -126,6 +132,8 @@ class Generator {
     all.without_retry_after += part.without_retry_after;
     all.truncated += part.truncated;
     all.late += part.late;
+    all.asked += part.asked;
+    all.frames += part.frames;
   }
 
   const LoadSettings& settings_;
@@ -136,8 +144,20 @@ class Generator {
 
 }  // namespace
 
+Scenes ever_brighter(json scene) {
+  return [scene](std::size_t n) {
+    json brighter = scene;
+    brighter["image"]["exposure_ev"] = 1e-9 * static_cast<double>(n);
+    return brighter;
+  };
+}
+
+double LoadReport::asked_per_s() const {
+  return seconds > 0 ? static_cast<double>(asked) / seconds : 0;
+}
+
 double LoadReport::frames_per_s() const {
-  return seconds > 0 ? static_cast<double>(frame_ms.size()) / seconds : 0;
+  return seconds > 0 ? static_cast<double>(frames) / seconds : 0;
 }
 
 std::size_t LoadReport::sent() const {
@@ -172,6 +192,7 @@ json load_document(const LoadReport& report) {
   return {
       {"seconds", report.seconds},
       {"statuses", statuses},
+      {"asked_per_s", report.asked_per_s()},
       {"frames_per_s", report.frames_per_s()},
       {"frame_ms",
        {{"p50", quantile(report.frame_ms, 0.5)}, {"p99", quantile(report.frame_ms, 0.99)}}},

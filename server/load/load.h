@@ -1,6 +1,7 @@
 // Load on a daemon, and what came of it.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,29 +10,40 @@
 
 namespace cyanometer {
 
+/// The n-th scene that is asked for.
+using Scenes = std::function<nlohmann::json(std::size_t n)>;
+/// Always another frame of the same atmosphere and plan, so that none has been kept: a little
+/// brighter, which PNG and JPEG show.
+Scenes ever_brighter(nlohmann::json scene);
+
 struct LoadSettings {
   std::string origin = "http://127.0.0.1:8080";
   int clients = 8;  ///< connections, each with one request at a time
   /// Requests a second that arrive at random, whether or not earlier ones have been answered
   /// (an open load); none: each client asks again as soon as it has its answer (a closed one).
   std::optional<double> rate;
-  double seconds = 10;
-  nlohmann::json scene = nlohmann::json::object();
-  bool vary = true;       ///< every scene another one, so that none has been kept
+  double seconds = 10;  ///< what is asked for is answered to the end, but counts until then
+  Scenes scene = ever_brighter(nlohmann::json::object());
+  /// Addresses of this machine from which the clients ask, in turn; none: as the system
+  /// chooses.
+  std::vector<std::string> sources;
   std::size_t first = 0;  ///< number of the first scene: another one, another run
   std::string token;
 };
 
 struct LoadReport {
-  std::map<int, std::size_t> statuses;  ///< 0: no answer
+  std::map<int, std::size_t> statuses;  ///< of all; 0: no answer
   std::vector<double> frame_ms;         ///< of answers 200, from when the request was due
   std::vector<double> reject_ms;        ///< of answers 429 and 503, from when it was sent
   std::size_t without_retry_after = 0;  ///< of those
   std::size_t truncated = 0;            ///< answers 200 that are PNGs without an end
   std::size_t late = 0;                 ///< sent over 10 ms after they were due
-  double seconds = 0;
-  double cpu_s = 0;  ///< of the generator itself
+  std::size_t asked = 0;                ///< requests sent in the time
+  std::size_t frames = 0;               ///< answers 200 that were there in the time
+  double seconds = 0;                   ///< the time
+  double cpu_s = 0;                     ///< of the generator itself, to the last answer
 
+  double asked_per_s() const;
   double frames_per_s() const;
   std::size_t sent() const;
 };

@@ -293,6 +293,34 @@ TEST(Connections, WhoDripsIsGivenUpThoughItTakesBytesAllTheTime) {
   EXPECT_FALSE(is_taken(4 * mib, mib / 128));
 }
 
+/// The buffers on the way must not hide that it takes bytes.
+TEST(Connections, WhoReadsSlowlyButSteadilyIsAnsweredToTheEnd) {
+  HttpServer::Options options;
+  options.limits.write = 1500ms;
+  options.limits.least_bytes_per_s = 65536;
+  const std::string body(std::size_t{8} << 20, 'x');
+  HttpServer server(options, {.answer = [&](const Request&) { return Answer{.body = body}; },
+                              .refuse = [](const auto&, const auto&) { return Answer{}; }});
+  server.bind("127.0.0.1:0");
+  std::thread thread([&] { server.run(); });
+  RawClient reader(server.port());
+  reader.send(get_text(closing));
+  std::size_t taken = 0;
+  const auto take = [&](std::size_t bytes) {
+    const auto got = reader.sip(bytes).size();
+    taken += got;
+    return got;
+  };
+  for (int i = 0; i < 80; ++i) {
+    take(8192);
+    std::this_thread::sleep_for(50ms);
+  }
+  while (take(65536) > 0) continue;
+  EXPECT_GT(taken, body.size());
+  server.stop();
+  thread.join();
+}
+
 TEST(Connections, APortIsNotShared) {
   Config config = free_port();
   config.listen = "127.0.0.1:" + std::to_string(shared_daemon().port());
