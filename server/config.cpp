@@ -22,7 +22,9 @@ const std::vector<Setting>& settings() {
       {"ops-listen", "address for healthz, readyz and metrics alone, on threads of their own",
        &Config::ops_listen},
       {"device", "part of the Vulkan device's name; empty takes the best", &Config::device},
-      {"threads", "connections at once, each with a cheap thread; more are refused with 503",
+      {"threads",
+       "connections at once, each with a cheap thread; where all are being answered, more are "
+       "refused with 503",
        &Config::threads, 1, 900},
       {"queue", "requests that may wait for the device; more are refused with 503",
        &Config::queue, 1, 100000},

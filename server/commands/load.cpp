@@ -47,6 +47,7 @@ void print(const LoadReport& report) {
     std::printf("%-12s %8zu\n", status == 0 ? "no answer" : std::to_string(status).c_str(),
                 count);
   }
+  std::printf("asked        %8.1f a second\n", report.asked_per_s());
   print_frames(report);
   if (!report.reject_ms.empty()) {
     std::printf("turned away  %8zu, p50 %.2f ms, p99 %.2f ms, %zu without Retry-After\n",
@@ -116,6 +117,8 @@ void add_load(CLI::App& app) {
                    "time, which is kept; exposure: none is kept, all else stays")
       ->check(CLI::IsMember(variation_names()))
       ->capture_default_str();
+  command->add_option("--from", settings.sources,
+                      "Addresses of this machine from which the clients ask, in turn");
   command->add_option("--token", settings.token, "The daemon's bearer token")
       ->envname("CYANOMETER_TOKEN");
   command->add_flag("--json", arguments->as_json, "The figures as JSON");

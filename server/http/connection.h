@@ -74,6 +74,7 @@ class Connection {
   /// would reset the connection and lose the answer.
   void close_gently();
 
+  int socket() const { return socket_; }
   const std::string& peer() const { return peer_; }
 
  private:

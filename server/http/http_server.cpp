@@ -47,6 +47,12 @@ void set_options(socket_t socket) {
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
 }
 
+HttpProblem too_many_connections() {
+  HttpProblem problem(503, "Too many connections.");
+  problem.retry_after_s = 1;
+  return problem;
+}
+
 }  // namespace
 
 HttpServer::HttpServer(Options options, Handlers handlers)
@@ -78,7 +84,7 @@ bool HttpServer::run() {
   while (listening && !stopping_) {
     const int socket = ::accept4(svr_sock_, nullptr, nullptr, SOCK_CLOEXEC);
     if (socket >= 0) {
-      pool.enqueue([this, socket] { serve_and_close(socket); });
+      admit(socket, pool);
     } else if (errno == EINVAL || errno == EBADF || errno == ENOTSOCK) {
       listening = false;  // stop() makes it EINVAL
     } else {
@@ -99,37 +105,55 @@ void HttpServer::stop() {
   if (listener >= 0) ::shutdown(listener, SHUT_RDWR);
 }
 
+void HttpServer::admit(int socket, ThreadPool& pool) {
+  const auto task = [this, socket] { serve_and_close(socket); };
+  if (pool.start(task)) return;
+  if (lobby_.send_one_away()) {
+    pool.queue(task);
+  } else {
+    refuse_and_close(socket);
+  }
+}
+
 void HttpServer::serve_and_close(int socket) {
   const int on = 1;
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  // Of a buffer of MiB the system would say for long that no byte was taken, of a slow reader.
+  const int unsent_bytes = 131072;
+  setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent_bytes, sizeof(unsent_bytes));
   Connection connection(socket, wake_, options_.limits);
-  if (ThreadPool::overloaded()) {
-    HttpProblem problem(503, "Too many connections.");
-    problem.retry_after_s = 1;
-    refuse(connection, problem);
-  } else {
-    ++connections_;
-    try {
-      serve(connection);
-    } catch (const std::bad_alloc&) {
-      // There is no memory to read it into, nor to say so: the connection ends.
-    }
-    --connections_;
+  ++connections_;
+  try {
+    serve(connection);
+  } catch (const std::bad_alloc&) {
+    // There is no memory to read it into, nor to say so: the connection ends.
   }
+  --connections_;
+  ::close(socket);
+}
+
+void HttpServer::refuse_and_close(int socket) {
+  Connection connection(socket, wake_, options_.limits);
+  refuse(connection, too_many_connections());
   ::close(socket);
 }
 
 void HttpServer::serve(Connection& connection) {
-  for (int left = options_.limits.requests; left > 0; --left) {
-    if (!wait_for_request(connection, left == options_.limits.requests)) return;
-    if (!serve_one(connection, left == 1)) break;
+  const auto& limits = options_.limits;
+  Lobby::Guest guest(lobby_, connection.socket(), connection.peer());
+  for (int left = limits.requests; left > 0; --left) {
+    guest.enter();
+    if (!connection.wait(left == limits.requests ? limits.head : limits.idle)) return;
+    if (!serve_one(connection, guest, left == 1)) break;
   }
+  guest.enter();
   connection.close_gently();
 }
 
-bool HttpServer::serve_one(Connection& connection, bool last) {
+bool HttpServer::serve_one(Connection& connection, Lobby::Guest& guest, bool last) {
   try {
     auto received = connection.read();
+    if (!guest.leave()) throw too_many_connections();
     if (!received) return false;
     auto& request = received->request;
     request.peer = options_.proxies.client(request.peer, request.header("x-forwarded-for"));
@@ -140,15 +164,6 @@ bool HttpServer::serve_one(Connection& connection, bool last) {
     refuse(connection, problem);
     return false;
   }
-}
-
-bool HttpServer::wait_for_request(Connection& connection, bool first) const {
-  // Where most threads are taken, those that only wait are the ones to give up.
-  const bool crowded = connections_ * 4 > static_cast<int>(options_.connections) * 3;
-  const auto idle = first ? options_.limits.head : options_.limits.idle;
-  return connection.wait(
-      crowded ? std::min<ConnectionLimits::Duration>(idle, std::chrono::milliseconds(500))
-              : idle);
 }
 
 void HttpServer::refuse(Connection& connection, const HttpProblem& problem) const {

@@ -8,18 +8,21 @@
 #include <string>
 
 #include "server/http/connection.h"
+#include "server/http/lobby.h"
 #include "server/http/message.h"
 #include "server/http/problem.h"
 #include "server/http/proxies.h"
 
 namespace cyanometer {
 
+class ThreadPool;
+
 class HttpServer : private httplib::Server {
  public:
   struct Options {
     ConnectionLimits limits;
     Proxies proxies = {};
-    std::size_t connections = 512;  ///< at once, each with a thread; more are refused with 503
+    std::size_t connections = 512;  ///< at once, each with a thread
     int nice = 0;                   ///< of those threads, added to the process's
   };
   struct Handlers {
@@ -45,11 +48,13 @@ class HttpServer : private httplib::Server {
   int connections() const { return connections_; }
 
  private:
+  /// Where all threads are taken, one that waits for its client is taken from it.
+  void admit(int socket, ThreadPool& pool);
   void serve_and_close(int socket);
+  void refuse_and_close(int socket);
   void serve(Connection& connection);
   /// True when one more request may be waited for.
-  bool serve_one(Connection& connection, bool last);
-  bool wait_for_request(Connection& connection, bool first) const;
+  bool serve_one(Connection& connection, Lobby::Guest& guest, bool last);
   void refuse(Connection& connection, const HttpProblem& problem) const;
   /// False when the client did not take it all.
   static bool send(const Connection& connection, const Answer& answer, bool head_only,
@@ -59,6 +64,7 @@ class HttpServer : private httplib::Server {
   Handlers handlers_;
   std::atomic<bool> stopping_{false};
   std::atomic<int> connections_{0};
+  Lobby lobby_;
   int wake_ = -1;  ///< eventfd, readable once stopping
   int port_ = 0;
 };

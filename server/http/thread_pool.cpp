@@ -8,8 +8,6 @@
 namespace cyanometer {
 namespace {
 
-thread_local bool overloaded_here = false;
-
 /// Linux keeps a nice value for each thread.
 void stand_back(int nice) {
   const auto thread = static_cast<id_t>(::gettid());
@@ -18,28 +16,28 @@ void stand_back(int nice) {
 
 }  // namespace
 
-bool ThreadPool::overloaded() { return overloaded_here; }
+bool ThreadPool::start(const Task& task) {
+  const std::lock_guard lock(mutex_);
+  if (tasks_.size() >= idle_ && !add_thread()) return false;
+  tasks_.push_back(task);
+  wake_.notify_one();
+  return true;
+}
 
-void ThreadPool::enqueue(std::function<void()> task) {
-  std::unique_lock lock(mutex_);
-  if (tasks_.size() < idle_) {
-    tasks_.push_back(std::move(task));
-    wake_.notify_one();
-    return;
+void ThreadPool::queue(Task task) {
+  const std::lock_guard lock(mutex_);
+  tasks_.push_back(std::move(task));
+  wake_.notify_one();
+}
+
+bool ThreadPool::add_thread() {
+  if (threads_.size() >= most_threads_) return false;
+  try {
+    threads_.emplace_back([this] { work(); });
+    return true;
+  } catch (const std::system_error&) {
+    return false;  // the system has no further thread for this process
   }
-  if (threads_.size() < most_threads_) {
-    try {
-      threads_.emplace_back([this] { work(); });
-      tasks_.push_back(std::move(task));
-      return;
-    } catch (const std::system_error&) {
-      // The system has no further thread for this process: as where there are enough.
-    }
-  }
-  lock.unlock();
-  overloaded_here = true;
-  task();
-  overloaded_here = false;
 }
 
 void ThreadPool::shutdown() {

@@ -10,28 +10,29 @@
 
 namespace cyanometer {
 
-/// One task, one thread, so that no connection waits behind another that is idle. Beyond
-/// `most_threads` a task runs on the caller with `overloaded()` true: it must refuse and
-/// return.
+/// One task, one thread, so that no connection waits behind another that is idle.
 class ThreadPool {
  public:
+  using Task = std::function<void()>;
   /// @param nice  added to the threads' nice values: how far they stand back where processors
   ///              are short
   ThreadPool(std::size_t most_threads, int nice) : most_threads_(most_threads), nice_(nice) {}
-  void enqueue(std::function<void()> task);
+  /// False where all threads are taken.
+  bool start(const Task& task);
+  /// For the next thread that becomes free.
+  void queue(Task task);
   /// Returns when every task has ended.
   void shutdown();
 
-  static bool overloaded();
-
  private:
+  bool add_thread();
   void work();
 
   std::size_t most_threads_;
   int nice_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::function<void()>> tasks_;
+  std::deque<Task> tasks_;
   std::vector<std::thread> threads_;
   std::size_t idle_ = 0;
   bool stopping_ = false;

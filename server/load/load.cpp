@@ -89,11 +89,12 @@ class Generator {
       start_ = Clock::now();
     });
     for (auto& part : parts) {
-      threads.emplace_back([&] { be_a_client(connected, part); });
+      const std::size_t number = threads.size();
+      threads.emplace_back([&, number] { be_a_client(number, connected, part); });
     }
     for (auto& thread : threads) thread.join();
     LoadReport all;
-    all.seconds = ms_between(start_, Clock::now()) / 1000;
+    all.seconds = settings_.seconds;
     all.cpu_s = cpu_seconds() - cpu_before;
     for (const auto& part : parts) add(part, all);
     return all;
@@ -101,8 +102,10 @@ class Generator {
 
  private:
   template <class Barrier>
-  void be_a_client(Barrier& connected, LoadReport& report) {
+  void be_a_client(std::size_t number, Barrier& connected, LoadReport& report) {
     httplib::Client client(settings_.origin);
+    const auto& sources = settings_.sources;
+    if (!sources.empty()) client.set_interface(sources[number % sources.size()]);
     client.set_keep_alive(true);
     client.set_tcp_nodelay(true);
     client.set_read_timeout(600);
@@ -115,7 +118,7 @@ class Generator {
         if (i >= due_.size()) return;
         due = start_ + std::chrono::nanoseconds(static_cast<std::int64_t>(due_[i] * 1e9));
         std::this_thread::sleep_until(due);
-      } else if (ms_between(start_, due) >= settings_.seconds * 1000) {
+      } else if (!in_time(due)) {
         return;
       }
       ask(client, i, due, report);
@@ -125,8 +128,9 @@ class Generator {
   httplib::Result answer_to(httplib::Client& client, std::size_t i) const {
     const httplib::Headers headers = credentials(settings_);
     if (!settings_.get.empty()) return client.Get(settings_.get, headers);
-    return client.Post("/v1/render", headers, motion_.frame(settings_.first + i).dump(),
-                       "application/json");
+    const std::size_t n = settings_.first + i;
+    const json scene = settings_.scenes ? settings_.scenes(n) : motion_.frame(n);
+    return client.Post("/v1/render", headers, scene.dump(), "application/json");
   }
 
   void ask(httplib::Client& client, std::size_t i, Clock::time_point due,
@@ -135,15 +139,21 @@ class Generator {
     const auto answer = answer_to(client, i);
     const auto done = Clock::now();
     report.late += ms_between(due, sent) > 10;
+    report.asked += in_time(sent);
     const int status = answer ? answer->status : 0;
     ++report.statuses[status];
     if (status == 200) {
       report.frame_ms.push_back(ms_between(due, done));
+      report.frames += in_time(done);
       note_frame(*answer, report);
     } else if (status == 429 || status == 503) {
       report.reject_ms.push_back(ms_between(sent, done));
       report.without_retry_after += !answer->has_header("Retry-After");
     }
+  }
+
+  bool in_time(Clock::time_point when) const {
+    return ms_between(start_, when) < settings_.seconds * 1000;
   }
 
   static void add(const LoadReport& part, LoadReport& all) {
@@ -161,6 +171,8 @@ class Generator {
     all.kept += part.kept;
     all.unmet += part.unmet;
     all.late += part.late;
+    all.asked += part.asked;
+    all.frames += part.frames;
   }
 
   const LoadSettings& settings_;
@@ -179,8 +191,12 @@ std::optional<double> daemon_seconds(httplib::Client& client, const LoadSettings
 
 }  // namespace
 
+double LoadReport::asked_per_s() const {
+  return seconds > 0 ? static_cast<double>(asked) / seconds : 0;
+}
+
 double LoadReport::frames_per_s() const {
-  return seconds > 0 ? static_cast<double>(frame_ms.size()) / seconds : 0;
+  return seconds > 0 ? static_cast<double>(frames) / seconds : 0;
 }
 
 std::size_t LoadReport::sent() const {
@@ -225,6 +241,7 @@ json load_document(const LoadReport& report) {
   const bool told = report.daemon_cpu_s && frames > 0;
   return {{"seconds", report.seconds},
           {"statuses", statuses},
+          {"asked_per_s", report.asked_per_s()},
           {"frames_per_s", report.frames_per_s()},
           {"frame_ms", times(report.frame_ms)},
           {"stage_ms", stages},

@@ -6,6 +6,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,25 +33,54 @@ class Crowd {
         ::close(one);
         break;
       }
-      sockets_.push_back(one);
+      members_.push_back({.socket = one});
     }
   }
   ~Crowd() { leave(); }
   Crowd(const Crowd&) = delete;
 
   void send(const std::string& bytes) const {
-    for (const int one : sockets_) {
-      (void)!::send(one, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    send_each([&](std::size_t) { return bytes; });
+  }
+  /// To the n-th what is made for it.
+  template <class Make>
+  void send_each(const Make& make) const {
+    for (std::size_t n = 0; n < members_.size(); ++n) {
+      const std::string bytes = make(n);
+      (void)!::send(members_[n].socket, bytes.data(), bytes.size(),
+                    MSG_NOSIGNAL | MSG_DONTWAIT);
     }
   }
-  void leave() {
-    for (const int one : sockets_) ::close(one);
-    sockets_.clear();
+  /// Each reads what is there, 16 KiB of it at the most.
+  void sip() {
+    std::array<char, 16384> bytes;
+    for (Member& each : members_) {
+      const auto got = ::recv(each.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+      if (got > 0 && each.start.size() < 16)
+        each.start.append(bytes.data(), std::min<std::size_t>(16, got));
+      each.ended = each.ended || got == 0 || (got < 0 && errno != EAGAIN);
+    }
   }
-  std::size_t size() const { return sockets_.size(); }
+  /// Those that have read such a status and whose connection has not ended.
+  std::size_t being_answered(int status) const {
+    const std::string line = "HTTP/1.1 " + std::to_string(status);
+    return static_cast<std::size_t>(std::ranges::count_if(members_, [&](const Member& each) {
+      return !each.ended && each.start.starts_with(line);
+    }));
+  }
+  void leave() {
+    for (const Member& each : members_) ::close(each.socket);
+    members_.clear();
+  }
+  std::size_t size() const { return members_.size(); }
 
  private:
-  std::vector<int> sockets_;
+  struct Member {
+    int socket = -1;
+    std::string start = {};  ///< of what it was answered
+    bool ended = false;
+  };
+  std::vector<Member> members_;
 };
 
 }  // namespace cyanometer::testing

@@ -203,6 +203,28 @@ TEST(Interrupted, ABatchEndsAndGoesOnLater) {
   }
 }
 
+TEST(Interrupted, AKilledBatchGoesOnLater) {
+  json scene = tiny_scene();
+  scene["image"] = {{"width", 160}, {"height", 90}};
+  const Bench bench(scene, sunset(200));
+  Program program(bench.arguments());
+  for (int i = 0; i < 3000 && !fs::exists(bench.file("sky-003.png")); ++i)
+    std::this_thread::sleep_for(10ms);
+  program.signal(SIGKILL);
+  EXPECT_EQ(program.wait(), 1000 + SIGKILL);
+  const auto before = bench.manifest();
+  ASSERT_GT(before.size(), 0u);
+  ASSERT_LT(before.size(), 200u);
+  for (const json& line : before) {
+    EXPECT_EQ(line.at("bytes"), fs::file_size(bench.file(line.at("file")))) << line;
+  }
+  EXPECT_THAT(bench.run(),
+              ::testing::HasSubstr(std::to_string(200 - before.size()) + " rendered, " +
+                                   std::to_string(before.size()) + " were there"));
+  EXPECT_EQ(bench.manifest().size(), 200u);
+  EXPECT_EQ(bench.names().size(), 201u) << "nothing unfinished, no lock";
+}
+
 TEST(Batch, IsRefusedBeforeTheFirstFrame) {
   const json low{{"sun", {{"elevation_deg", -100}}}};
   const Bench bench(tiny_scene(), {{"frames", {json::object(), low}}});
@@ -225,6 +247,28 @@ TEST(Batch, AFolderThatTakesNothingIsAFailure) {
   const Bench bench(tiny_scene(), sunset(3));
   std::ofstream(bench.folder / "out") << "no folder";
   bench.run({}, 1);
+}
+
+TEST(Batch, AFullDiskEndsItAndLaterItGoesOn) {
+  const Bench bench(tiny_scene(), sunset(5));
+  fs::create_directories(bench.folder / "out");
+  fs::create_symlink("/dev/full", bench.file("sky-002.png.part"));
+  EXPECT_THAT(bench.run({"--workers", "1"}, 1), ::testing::HasSubstr("sky-002.png"));
+  EXPECT_EQ(bench.names(),
+            (std::vector<std::string>{"sky-000.png", "sky-001.png", "sky-manifest.jsonl"}));
+  EXPECT_EQ(bench.manifest().size(), 2u);
+  EXPECT_THAT(bench.run(), ::testing::HasSubstr("3 rendered, 2 were there"));
+  EXPECT_EQ(bench.manifest().size(), 5u);
+}
+
+TEST(Batch, AManifestThatTakesNothingEndsItAndItsFramesAreMadeAgain) {
+  const Bench bench(tiny_scene(), sunset(3));
+  fs::create_directories(bench.folder / "out");
+  fs::create_symlink("/dev/full", bench.file("sky-manifest.jsonl.part"));
+  EXPECT_THAT(bench.run({"--workers", "1"}, 1), ::testing::HasSubstr("sky-manifest.jsonl"));
+  fs::remove(bench.file("sky-manifest.jsonl"));
+  EXPECT_THAT(bench.run(), ::testing::HasSubstr("3 rendered, 0 were there"));
+  EXPECT_EQ(bench.manifest().size(), 3u);
 }
 
 TEST(Batch, PatternsNameEachFrameOnce) {

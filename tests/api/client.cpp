@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <thread>
 #include <utility>
@@ -82,12 +83,18 @@ const std::string large_link =
     "image.width=512&image.height=512&image.format=npy&method.name=raymarch&method.view_nodes="
     "1";
 
-RawClient::RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+RawClient::RawClient(int port, const std::string& from, int receive_bytes)
+    : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  if (receive_bytes > 0) {
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_bytes, sizeof(receive_bytes));
+  }
+  sockaddr_in here{}, there{};
+  here.sin_family = there.sin_family = AF_INET;
+  EXPECT_EQ(inet_pton(AF_INET, from.c_str(), &here.sin_addr), 1);
+  EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&here), sizeof(here)), 0);
+  there.sin_port = htons(static_cast<std::uint16_t>(port));
+  there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&there), sizeof(there)), 0);
 }
 
 RawClient::~RawClient() { close(); }
@@ -118,6 +125,14 @@ std::string RawClient::receive(std::chrono::milliseconds patience) {
   while (receive_some(all, patience)) {
   }
   return all;
+}
+
+std::string RawClient::sip(std::size_t bytes) {
+  pollfd one{socket_, POLLIN, 0};
+  std::string sipped(bytes, ' ');
+  const auto got = ::poll(&one, 1, 3000) > 0 ? ::recv(socket_, sipped.data(), bytes, 0) : 0;
+  sipped.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  return sipped;
 }
 
 std::string RawClient::receive_one() {

@@ -38,7 +38,9 @@ extern const std::string large_link;
 /// A connection on which any bytes can be sent.
 class RawClient {
  public:
-  explicit RawClient(int port);
+  /// @param from           an address of this machine
+  /// @param receive_bytes  of its buffer; 0: the usual
+  explicit RawClient(int port, const std::string& from = "127.0.0.1", int receive_bytes = 0);
   RawClient() : RawClient(shared_daemon().port()) {}
   ~RawClient();
   RawClient(const RawClient&) = delete;
@@ -46,6 +48,8 @@ class RawClient {
   void send(const std::string& bytes);
   /// All that comes until the server closes or says nothing for so long.
   std::string receive(std::chrono::milliseconds patience = std::chrono::seconds(3));
+  /// So many bytes at the most; none when the server closes, or says nothing for 3 s.
+  std::string sip(std::size_t bytes);
   /// One answer with a Content-Length.
   std::string receive_one();
   void close();

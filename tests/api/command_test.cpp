@@ -300,11 +300,12 @@ TEST(Command, LoadAsksForFramesThatNoOtherRunLeftAndOfAnyFormat) {
   const std::string url = "http://127.0.0.1:" + std::to_string(shared_daemon().port());
   const auto before = kept();
   for (int i = 0; i < 2; ++i) {
-    Program run({"load", url, "--clients", "1", "--seconds", "0.5", "--scene",
-                 folder / "scene.json", "--json"});
+    Program run({"load", url, "--clients", "1", "--seconds", "0.5", "--from", "127.0.0.2",
+                 "--scene", folder / "scene.json", "--json"});
     ASSERT_EQ(run.wait(), 0) << run.err();
     const json report = json::parse(run.out());
     EXPECT_GE(report.at("statuses").value("200", 0), 1) << report;
+    EXPECT_GT(report.at("asked_per_s"), 0);
     EXPECT_EQ(report.at("truncated"), 0);
   }
   EXPECT_EQ(kept(), before);

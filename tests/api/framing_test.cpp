@@ -293,32 +293,32 @@ TEST(Connections, WhoDripsIsGivenUpThoughItTakesBytesAllTheTime) {
   EXPECT_FALSE(is_taken(4 * mib, mib / 128));
 }
 
-TEST(Connections, OneMoreThanThereAreThreadsIsRefused) {
-  Config config = free_port();
-  config.threads = 2;
-  Daemon daemon(config);
-  daemon.start();
-  RawClient first(daemon.port()), second(daemon.port());
-  first.send(get_text());
-  second.send(get_text());
-  EXPECT_EQ(status_of(first.receive_one()), 200);
-  EXPECT_EQ(status_of(second.receive_one()), 200);
-  RawClient third(daemon.port());
-  const auto answer = third.receive();
-  EXPECT_EQ(status_of(answer), 503);
-  EXPECT_NE(answer.find("Retry-After: 1"), std::string::npos);
-}
-
-TEST(Connections, IdleOnesMakeRoomWhereThreadsAreFew) {
-  Config config = free_port();
-  config.threads = 2;
-  Daemon daemon(config);
-  daemon.start();
-  RawClient first(daemon.port()), second(daemon.port());
-  EXPECT_EQ(first.receive(), "");
-  RawClient third(daemon.port());
-  third.send(get_text(closing));
-  EXPECT_EQ(status_of(third.receive()), 200);
+/// The buffers on the way must not hide that it takes bytes.
+TEST(Connections, WhoReadsSlowlyButSteadilyIsAnsweredToTheEnd) {
+  HttpServer::Options options;
+  options.limits.write = 1500ms;
+  options.limits.least_bytes_per_s = 65536;
+  const std::string body(std::size_t{8} << 20, 'x');
+  HttpServer server(options, {.answer = [&](const Request&) { return Answer{.body = body}; },
+                              .refuse = [](const auto&, const auto&) { return Answer{}; }});
+  server.bind("127.0.0.1:0");
+  std::thread thread([&] { server.run(); });
+  RawClient reader(server.port());
+  reader.send(get_text(closing));
+  std::size_t taken = 0;
+  const auto take = [&](std::size_t bytes) {
+    const auto got = reader.sip(bytes).size();
+    taken += got;
+    return got;
+  };
+  for (int i = 0; i < 80; ++i) {
+    take(8192);
+    std::this_thread::sleep_for(50ms);
+  }
+  while (take(65536) > 0) continue;
+  EXPECT_GT(taken, body.size());
+  server.stop();
+  thread.join();
 }
 
 TEST(Connections, APortIsNotShared) {

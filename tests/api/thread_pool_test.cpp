@@ -16,7 +16,7 @@ TEST(ThreadPool, ItsThreadsStandBackBehindTheOthersOfTheProcess) {
   for (const int nice : {0, 5}) {
     ThreadPool pool(1, nice);
     std::promise<int> there;
-    pool.enqueue([&] { there.set_value(nice_of_this_thread()); });
+    EXPECT_TRUE(pool.start([&] { there.set_value(nice_of_this_thread()); }));
     EXPECT_EQ(there.get_future().get(), here + nice);
     pool.shutdown();
   }
