@@ -241,8 +241,9 @@ class Engine {
   void inject(const EngineFaults& faults);
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();
-  /// Dispatches every pipeline once, so that the first request finds them compiled; and at the
-  /// first start on a device measures its profile, where profiles are kept. @throws Cancelled
+  /// Renders two small frames, so that first requests find compiled what most of them need; and
+  /// at the first start on a device measures its profile, where profiles are kept.
+  /// @throws Cancelled
   void warm(const Watch& watch = {});
   /// Device time of a frame whose tables are made anew. The first of its form compiles too.
   double frame_ms(const Scene& scene, const Plan& plan, const Watch& watch = {});
