@@ -19,7 +19,7 @@ using Samples = std::vector<std::vector<double>>;
 
 constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 
-/// What is measured on some hundred rays holds for the frame in 95 % of frames with this
+/// What is measured on some hundreds of rays holds for the frame in 95 % of frames with this
 /// factor.
 constexpr double frame_over_sample = 1.8;
 
