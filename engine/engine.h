@@ -72,7 +72,8 @@ struct Frame {
     std::string channel;   ///< EXR channel name: "R", "550,5nm", "transmittance.B"
     const float* samples;  ///< height rows of width, from the top; valid while the frame lives
   };
-  std::vector<Plane> planes;            ///< image channels first, then layers
+  /// Image channels first, then layers; none where pixels were interpolated as displayed.
+  std::vector<Plane> planes;
   const unsigned char* rgbx = nullptr;  ///< 4 bytes a pixel, sRGB; null where not asked for
   double exposure_ev = 0;
   double white_luminance = 0;  ///< cd/m^2 of 1.0, 0 where the planes are radiances

@@ -61,7 +61,7 @@ double banding(const FramePair& frames, const std::vector<bool>& counted) {
   Displayed displayed(frames.scene_b.image,
                       make_output(frames.scene_b, frames.b.plan.wavelengths_nm),
                       frames.b.exposure_ev);
-  std::array planes = image_planes(frames.b);
+  std::array planes = image_planes(frames.linear_b);
   std::erase_if(found, [&](const Contour& contour) {
     return !is_band(contour, [&](std::size_t i) { return displayed.levels(at(planes, i)); });
   });
@@ -82,10 +82,24 @@ void check_comparable(const Scene& a, const Scene& b) {
   require_equal("/b/spectrum/colour", colour(a), colour(b));
 }
 
+namespace {
+
+/// By the plan of a frame that is displayed, where that has no planes.
+Frame linear_frame(Engine& engine, const Scene& scene, const Frame& displayed,
+                   const Watch& watch) {
+  if (!displayed.planes.empty()) return displayed;
+  Scene linear = scene;
+  linear.image.format = ImageFormat::npy;
+  return engine.render(linear, displayed.plan, watch);
+}
+
+}  // namespace
+
 FramePair render_pair(Engine& engine, const Scene& a, const Scene& b, const Watch& watch) {
   FramePair pair;
   pair.scene_b = bare(b);
-  pair.b = engine.render(pair.scene_b, part_of(watch, 0, 0.5));
+  pair.b = engine.render(pair.scene_b, part_of(watch, 0, 0.4));
+  pair.linear_b = linear_frame(engine, pair.scene_b, pair.b, part_of(watch, 0.4, 0.5));
   Scene scene_a = bare(a);
   Plan plan = engine.plan(scene_a, watch);
   // The exposure of a scene is relative to its own sun.
@@ -94,7 +108,8 @@ FramePair render_pair(Engine& engine, const Scene& a, const Scene& b, const Watc
   scene_a.image.exposure_ev = pair.b.exposure_ev + std::log2(sun_a / sun_b);
   scene_a.image.tone_map = b.image.tone_map;
   scene_a.image.white = b.image.white;
-  pair.a = engine.render(scene_a, plan, part_of(watch, 0.5, 1));
+  pair.a = engine.render(scene_a, plan, part_of(watch, 0.5, 0.9));
+  pair.linear_a = linear_frame(engine, scene_a, pair.a, part_of(watch, 0.9, 1));
   return pair;
 }
 
@@ -102,8 +117,9 @@ Comparison compare(const FramePair& frames, const Watch& watch) {
   std::vector<bool> counted = measured_pixels(frames.scene_b);
   Comparison result;
   Colour colour = frames.scene_b.spectrum.colour;
-  result.measure = measure_error(in_error_channels(image_planes(frames.a), colour, counted),
-                                 in_error_channels(image_planes(frames.b), colour, counted), 3);
+  result.measure =
+      measure_error(in_error_channels(image_planes(frames.linear_a), colour, counted),
+                    in_error_channels(image_planes(frames.linear_b), colour, counted), 3);
   watch.check();
   result.ciede2000_p99 = colour_difference(frames, counted, watch);
   result.banding = banding(frames, counted);
@@ -139,7 +155,7 @@ std::vector<float> error_map(const std::array<const float*, 3>& a,
 }
 
 std::vector<float> error_map(const FramePair& frames) {
-  return error_map(image_planes(frames.a), image_planes(frames.b),
+  return error_map(image_planes(frames.linear_a), image_planes(frames.linear_b),
                    frames.scene_b.spectrum.colour, measured_pixels(frames.scene_b));
 }
 

@@ -31,6 +31,7 @@ void check_comparable(const Scene& a, const Scene& b);
 struct FramePair {
   Scene scene_b;
   Frame a, b;
+  Frame linear_a, linear_b;  ///< the same with planes
 };
 /// @throws OverLimit, Cancelled, DeviceLost
 FramePair render_pair(Engine& engine, const Scene& a, const Scene& b, const Watch& watch = {});

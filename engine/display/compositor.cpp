@@ -7,6 +7,8 @@
 #include "engine/methods/tables/fill.h"
 #include "spirv/compose.spv.h"
 #include "spirv/display.spv.h"
+#include "spirv/fill_levels.spv.h"
+#include "spirv/fill_planes.spv.h"
 #include "spirv/overlay.spv.h"
 #include "spirv/stars.spv.h"
 
@@ -15,10 +17,10 @@ namespace {
 
 struct ComposePush {
   std::array<float, 4> inscatter, ground, sun, transmittance;
-  std::int32_t first_ray, rays_in_tile, first_row, accumulate, mark_outside;
+  std::int32_t first_ray, rays_in_tile, first_row, accumulate, mark_outside, listed;
 };
 struct StarsPush {
-  std::int32_t first_ray, rays_in_tile, first_row, first_star, stars, planes;
+  std::int32_t first_ray, rays_in_tile, first_row, first_star, stars, planes, listed;
 };
 struct OverlayPush {
   std::array<float, 4> luminance;
@@ -28,6 +30,9 @@ struct OverlayPush {
 struct DisplayPush {
   std::array<std::array<float, 4>, 3> rows;
   std::int32_t first, end;
+};
+struct FillPush {
+  std::int32_t side, width, panel, first, end;
 };
 
 /// A row in groups of four wavelengths, `count` from the `first` on.
@@ -65,24 +70,39 @@ vulkan::Buffer upload(vulkan::Device& device, const std::vector<T>& values) {
 
 }  // namespace
 
-FrameStore::FrameStore(vulkan::Device& device, std::size_t pixels_, std::size_t groups,
-                       bool displayed)
+FrameStore::FrameStore(vulkan::Device& device, vulkan::BufferPool& pool, std::size_t pixels_,
+                       std::size_t groups, bool displayed)
     : pixels(pixels_) {
   std::size_t alignment = std::max<std::size_t>(device.limits().storage_alignment, 64);
   stride = (pixels * sizeof(float) + alignment - 1) / alignment * alignment / sizeof(float);
   for (std::size_t g = 0; g < groups; ++g) {
-    buffers.emplace_back(device, 4 * stride * sizeof(float), vulkan::Memory::host);
+    buffers.push_back(pool.take(4 * stride * sizeof(float), vulkan::Memory::host));
   }
-  if (displayed) rgbx.emplace_back(device, pixels * 4, vulkan::Memory::host);
+  if (displayed) rgbx = pool.take(pixels * 4, vulkan::Memory::host);
 }
 
 vulkan::Binding FrameStore::plane(std::size_t group, std::size_t k) const {
-  return {buffers[group], k * stride * sizeof(float), pixels * sizeof(float)};
+  return {*buffers[group], k * stride * sizeof(float), pixels * sizeof(float)};
 }
 
-std::span<const float> FrameStore::samples(std::size_t group, std::size_t k) const {
-  return buffers[group].as<const float>().subspan(k * stride, pixels);
+std::span<float> FrameStore::samples(std::size_t group, std::size_t k) const {
+  return buffers[group]->as<float>().subspan(k * stride, pixels);
 }
+
+void FrameStore::add_levels(vulkan::BufferPool& pool) {
+  level_planes = pool.take(3 * stride * sizeof(float), vulkan::Memory::host);
+}
+
+vulkan::Binding FrameStore::level(std::size_t c) const {
+  return {*level_planes, c * stride * sizeof(float), pixels * sizeof(float)};
+}
+
+std::span<float> FrameStore::levels(std::size_t c) const {
+  return level_planes->as<float>().subspan(c * stride, pixels);
+}
+
+PixelList::PixelList(vulkan::Device& device, const std::vector<int>& pixels)
+    : numbers(upload(device, pixels)), count(static_cast<int>(pixels.size())) {}
 
 double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
   // A stop above middle grey: skies are bright things.
@@ -108,19 +128,23 @@ double automatic_exposure_ev(std::span<const float> luminance, double white_card
 }
 
 Compositor::Compositor(vulkan::Device& device)
-    : compose_(device, compose_spirv, UploadedScene::bindings + 6, sizeof(ComposePush)),
+    : compose_(device, compose_spirv, UploadedScene::bindings + 7, sizeof(ComposePush)),
       stars_(device, stars_spirv, UploadedScene::bindings + 8, sizeof(StarsPush)),
       overlay_(device, overlay_spirv, UploadedScene::bindings + 8, sizeof(OverlayPush)),
-      display_(device, display_spirv, 4, sizeof(DisplayPush)) {}
+      display_(device, display_spirv, 8, sizeof(DisplayPush)),
+      fill_levels_(device, fill_levels_spirv, 6, sizeof(FillPush)),
+      fill_planes_(device, fill_planes_spirv, 4, sizeof(FillPush)) {}
 
 Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
                                     const std::vector<PlaneGroup>& groups, std::size_t first,
                                     std::size_t wavelengths) {
   const Problem& problem = scene.problem();
   std::size_t count = problem.wavelengths_nm.size();
-  Job job{scene,      groups,
-          first == 0, first + count == wavelengths,
-          {},         upload(device, matrix_rows(groups, first, count)),
+  Job job{groups,
+          first == 0,
+          first + count == wavelengths,
+          {},
+          upload(device, matrix_rows(groups, first, count)),
           {}};
   if (problem.show.stars) {
     Physics<double> camera = pack<double>(problem);
@@ -133,32 +157,49 @@ Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene&
   return job;
 }
 
-void Compositor::compose(vulkan::Commands& commands, const Job& job, const Tile& tile,
-                         const FrameStore& store) {
-  auto first =
-      std::lower_bound(job.stars.pixels.begin(), job.stars.pixels.end(), tile.first_ray);
-  auto end = std::lower_bound(first, job.stars.pixels.end(), tile.first_ray + tile.rays);
-  int stars = static_cast<int>(end - first);
+void Compositor::compose(vulkan::Commands& commands, const Job& job, const UploadedScene& scene,
+                         const Tile& tile, const FrameStore& store, const PixelList* listed) {
   for (std::size_t g = 0; g < job.groups.size(); ++g) {
     const PlaneGroup& group = job.groups[g];
     std::vector<vulkan::Binding> bindings =
-        job.scene.bind({tile.values, job.matrix, store.plane(g, 0), store.plane(g, 1),
-                        store.plane(g, 2), store.plane(g, 3)});
-    int first_row = static_cast<int>(4 * g);
-    ComposePush push{group.inscatter,     group.ground,   group.sun,
-                     group.transmittance, tile.first_ray, tile.rays,
-                     first_row,           !job.first,     job.last && g == 0};
-    commands.dispatch(compose_, job.scene.constants(), bindings, vulkan::bytes_of(push),
+        scene.bind({tile.values, job.matrix, store.plane(g, 0), store.plane(g, 1),
+                    store.plane(g, 2), store.plane(g, 3)});
+    std::vector<vulkan::Binding> composed = bindings;
+    composed.push_back(listed ? vulkan::Binding(listed->numbers) : bindings.back());
+    ComposePush push{group.inscatter,         group.ground,   group.sun,
+                     group.transmittance,     tile.first_ray, tile.rays,
+                     static_cast<int>(4 * g), !job.first,     job.last && g == 0,
+                     listed != nullptr};
+    commands.dispatch(compose_, scene.constants(), composed, vulkan::bytes_of(push),
                       {vulkan::groups_for(tile.rays, 64)});
-    if (!group.stars || stars == 0) continue;
-    bindings.push_back(job.star_buffers[0]);
-    bindings.push_back(job.star_buffers[1]);
-    StarsPush stars_push{tile.first_ray, tile.rays,
-                         first_row,      static_cast<int>(first - job.stars.pixels.begin()),
-                         stars,          static_cast<int>(group.channels.size())};
-    commands.dispatch(stars_, job.scene.constants(), bindings, vulkan::bytes_of(stars_push),
-                      {vulkan::groups_for(stars, 64)});
+    if (group.stars && (!listed || listed->stars))
+      compose_stars(commands, job, scene, tile, g, std::move(bindings), listed);
   }
+}
+
+void Compositor::compose_stars(vulkan::Commands& commands, const Job& job,
+                               const UploadedScene& scene, const Tile& tile, std::size_t group,
+                               std::vector<vulkan::Binding> bindings, const PixelList* listed) {
+  const std::vector<int>& pixels = job.stars.pixels;
+  int first = tile.first_ray, stars = tile.rays;
+  if (!listed) {
+    auto from = std::lower_bound(pixels.begin(), pixels.end(), tile.first_ray);
+    auto end = std::lower_bound(from, pixels.end(), tile.first_ray + tile.rays);
+    first = static_cast<int>(from - pixels.begin());
+    stars = static_cast<int>(end - from);
+  }
+  if (stars == 0) return;
+  bindings.push_back(job.star_buffers[0]);
+  bindings.push_back(job.star_buffers[1]);
+  StarsPush push{tile.first_ray,
+                 tile.rays,
+                 static_cast<int>(4 * group),
+                 first,
+                 stars,
+                 static_cast<int>(job.groups[group].channels.size()),
+                 listed != nullptr};
+  commands.dispatch(stars_, scene.constants(), bindings, vulkan::bytes_of(push),
+                    {vulkan::groups_for(stars, 64)});
 }
 
 void Compositor::overlay(Tracer& tracer, const std::vector<UploadedScene>& scenes,
@@ -199,6 +240,16 @@ void Compositor::overlay(Tracer& tracer, const std::vector<UploadedScene>& scene
 
 void Compositor::display(Tracer& tracer, const Image& image, const Output& output,
                          double exposure_ev, const FrameStore& store) {
+  display(tracer, image, output, exposure_ev, store, nullptr);
+}
+
+void Compositor::display(Tracer& tracer, const Image& image, const Output& output,
+                         double exposure_ev, const FrameStore& store, const PixelList& listed) {
+  display(tracer, image, output, exposure_ev, store, &listed);
+}
+
+void Compositor::display(Tracer& tracer, const Image& image, const Output& output,
+                         double exposure_ev, const FrameStore& store, const PixelList* listed) {
   constexpr int pixels_at_once = 1 << 20;
   Matrix matrix = display_matrix(output, exposure_ev);
   DisplayPush push{};
@@ -208,14 +259,49 @@ void Compositor::display(Tracer& tracer, const Image& image, const Output& outpu
     }
   }
   vulkan::Specialization constants{static_cast<std::uint32_t>(image.tone_map),
-                                   image.show.clipped};
-  int pixels = static_cast<int>(store.pixels);
+                                   image.show.clipped, listed != nullptr};
+  const vulkan::Binding rgbx(*store.rgbx, 0, store.pixels * 4);
+  std::vector<vulkan::Binding> bindings{store.plane(0, 0), store.plane(0, 1), store.plane(0, 2),
+                                        rgbx};
+  if (listed) {
+    bindings.emplace_back(listed->numbers);
+    for (std::size_t c = 0; c < 3; ++c) bindings.push_back(store.level(c));
+  } else {
+    for (int i = 0; i < 4; ++i) bindings.push_back(rgbx);
+  }
+  int pixels = listed ? listed->count : static_cast<int>(store.pixels);
   for (push.first = 0; push.first < pixels; push.first = push.end) {
     push.end = std::min(push.first + pixels_at_once, pixels);
-    tracer.commands.dispatch(
-        display_, constants,
-        {store.plane(0, 0), store.plane(0, 1), store.plane(0, 2), store.rgbx.front()},
-        vulkan::bytes_of(push), {vulkan::groups_for(push.end - push.first, 64)});
+    tracer.commands.dispatch(display_, constants, bindings, vulkan::bytes_of(push),
+                             {vulkan::groups_for(push.end - push.first, 64)});
+    tracer.submit();
+  }
+}
+
+void Compositor::fill(Tracer& tracer, const Lattice& lattice,
+                      const std::vector<PlaneGroup>& groups, const FrameStore& store) {
+  const bool levels = store.level_planes != nullptr;
+  for (const auto& [side, corners] : lattice.cells()) {
+    const int at_once = side >= 4 && lattice.width() % 4 == 0 ? 4 : 1;
+    const vulkan::Specialization constants{static_cast<std::uint32_t>(at_once)};
+    const vulkan::Buffer cells = upload(tracer.device, corners);
+    const int invocations = static_cast<int>(corners.size()) * side / at_once;
+    const FillPush push{side, lattice.width(), lattice.panel(), 0, invocations};
+    auto run = [&](const vulkan::Kernel& kernel, const std::vector<vulkan::Binding>& bindings) {
+      tracer.commands.dispatch(kernel, constants, bindings, vulkan::bytes_of(push),
+                               {vulkan::groups_for(invocations, 64)});
+    };
+    if (levels) {
+      const vulkan::Binding rgbx(*store.rgbx, 0, store.pixels * 4);
+      run(fill_levels_, {cells, store.level(0), store.level(1), store.level(2), rgbx, rgbx});
+    } else {
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        for (std::size_t k = 0; k < groups[g].channels.size(); ++k) {
+          const vulkan::Binding plane = store.plane(g, k);
+          run(fill_planes_, {cells, plane, plane, plane});
+        }
+      }
+    }
     tracer.submit();
   }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/optics/colour.h"
+
 namespace cyanometer {
 namespace {
 
@@ -138,6 +140,11 @@ std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& prob
     if (group.transmittance_itself) group.transmittance = {};
   }
   return groups;
+}
+
+std::vector<double> wavelengths_of_transmittance(const Scene& scene) {
+  return scene.spectrum.wavelengths_nm.empty() ? colour_wavelengths(transmittance_wavelengths)
+                                               : scene.spectrum.wavelengths_nm;
 }
 
 std::array<std::vector<double>, 3> transmittance_rows(

@@ -32,6 +32,10 @@ std::vector<PlaneGroup> plane_groups(const Scene& scene, const Problem& problem,
 std::vector<PlaneGroup> composite_groups(const Scene& scene, const Problem& problem,
                                          const Output& output);
 
+/// Wavelengths that hold the transmittance of a channel to 1e-3 (tests/composite).
+inline constexpr int transmittance_wavelengths = 24;
+std::vector<double> wavelengths_of_transmittance(const Scene& scene);
+
 /// By channel R, G, B and wavelength: transmittance in a channel is that of the sun's own
 /// light; of even light where the sun has nearly none of the channel's colour, or less than
 /// none.

@@ -75,6 +75,9 @@ class Method {
                                      const MethodOptions& options);
 };
 
+/// With what every method can be told that has no noise, and so values between its rays.
+MethodDescription interpolated(MethodDescription description);
+
 /// The methods, made for a device; in the order of `methods()`.
 std::vector<std::unique_ptr<Method>> make_methods(vulkan::Device& device);
 

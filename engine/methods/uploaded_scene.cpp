@@ -100,7 +100,6 @@ UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
     : problem_(problem),
       air_key_(key_of_air(physics)),
       parts_(lay_out(arrays(physics), device.limits().storage_alignment)),
-      buffer_(device, parts_.back().first + parts_.back().second, vulkan::Memory::device),
       ends_(std::move(ends)),
       ground_(std::move(ground)),
       constants_(specialization(physics)),
@@ -110,16 +109,38 @@ UploadedScene::UploadedScene(vulkan::Device& device, const Problem& problem,
       density_iterations_(iterations(physics)),
       profile_nodes_(static_cast<int>(physics.profile_nodes.size())),
       kinks_(physics.scene.kinks) {
+  vulkan::Buffer buffer(device, parts_.back().first + parts_.back().second,
+                        vulkan::Memory::device);
   std::vector<Bytes> bytes = arrays(physics);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
-    if (!bytes[i].empty()) buffer_.write(parts_[i].first, bytes[i]);
+    if (!bytes[i].empty()) buffer.write(parts_[i].first, bytes[i]);
   }
+  buffer_ = std::make_shared<const vulkan::Buffer>(std::move(buffer));
+}
+
+UploadedScene UploadedScene::with_directions(vulkan::Device& device,
+                                             const std::vector<glm::dvec3>& directions) const {
+  std::vector<glm::vec4> values;
+  for (const glm::dvec3& d : directions) values.emplace_back(glm::vec3(d), 0.f);
+  const auto bytes = std::as_bytes(std::span(values));
+  vulkan::Buffer buffer(device, bytes.size(), vulkan::Memory::device);
+  buffer.write(0, bytes);
+  UploadedScene other = *this;
+  other.directions_ = std::make_shared<const vulkan::Buffer>(std::move(buffer));
+  return other;
 }
 
 std::vector<vulkan::Binding> UploadedScene::bind(
     std::initializer_list<vulkan::Binding> own) const {
   std::vector<vulkan::Binding> all;
-  for (auto [offset, size] : parts_) all.emplace_back(buffer_, offset, size);
+  constexpr std::size_t place_of_directions = 7;  // shaders/device.glsl
+  for (auto [offset, size] : parts_) {
+    if (directions_ && all.size() == place_of_directions) {
+      all.emplace_back(*directions_);
+    } else {
+      all.emplace_back(*buffer_, offset, size);
+    }
+  }
   if (ends_) {
     all.pop_back();
     all.emplace_back(ends_->buffer());

@@ -52,6 +52,11 @@ class UploadedScene {
                 const std::vector<glm::dvec3>& directions = {},
                 std::shared_ptr<const RayEnds> ends = nullptr, GroundBuffers ground = {});
 
+  /// The same scene and other directions of as many rays as they are; of one that was uploaded
+  /// with some, and without ends or a ground of its own.
+  UploadedScene with_directions(vulkan::Device& device,
+                                const std::vector<glm::dvec3>& directions) const;
+
   const Problem& problem() const { return problem_; }
   /// All that the air and the ground are, as bytes: with equal keys, tables that depend on
   /// neither sun nor camera are equal.
@@ -81,7 +86,8 @@ class UploadedScene {
   Problem problem_;
   std::string air_key_;
   std::vector<std::pair<std::size_t, std::size_t>> parts_;  ///< offset and size by binding
-  vulkan::Buffer buffer_;
+  std::shared_ptr<const vulkan::Buffer> buffer_;
+  std::shared_ptr<const vulkan::Buffer> directions_;  ///< null where they are in that
   std::shared_ptr<const RayEnds> ends_;
   GroundBuffers ground_;
   vulkan::Specialization constants_;

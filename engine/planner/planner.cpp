@@ -26,6 +26,10 @@ constexpr double frame_over_sample = 1.8;
 /// What is left of the finest setting's error, over what its last step changed.
 constexpr double over_last_step = 1.3;
 
+/// The error of frames from interpolation alone, over how far a pixel may be off: a third on
+/// all presets.
+constexpr double frame_over_tolerance = 0.5;
+
 /// Of all settings of the moments alike, by random walks on random planets (`audit`); over what
 /// leaving out their part, light that was scattered more than once, would be.
 constexpr double common_error = 0.006;
@@ -335,8 +339,12 @@ class Planner {
     return given;
   }
 
+  /// What is measured on rays, and what pixels between rays are off in a frame.
   double measured(const Choice& given) const {
-    return judge_->bound(probe(*given.method, given.options));
+    const double of_rays = judge_->bound(probe(*given.method, given.options));
+    return in_.extent.is_sparse(given.options)
+               ? std::hypot(of_rays, frame_over_tolerance * given.options.at("interpolation"))
+               : of_rays;
   }
 
   /// Noise falls with the root of the number of walks, so that of a few, looked at once, tells
@@ -414,15 +422,31 @@ std::string explain(const PlanInputs& inputs, const Plan& plan, const Choice& ch
 
 }  // namespace
 
+bool Extent::is_sparse(const MethodOptions& options) const {
+  const auto interpolated = options.find("interpolation");
+  return sparse_rays > 0 && interpolated != options.end() && interpolated->second > 0;
+}
+
+double Extent::traced(const MethodOptions& options) const {
+  if (!is_sparse(options)) return rays;
+  // What is off falls with the square of the distance between rays.
+  return std::min(rays, sparse_rays * std::sqrt(tolerance / options.at("interpolation")));
+}
+
 double expected_ms(const DeviceProfile& profile, const Method& method,
                    const MethodOptions& options, const Problem& problem, Extent extent,
                    std::size_t wavelengths) {
   // Columns are the same at every wavelength; the rest is done for four of them at a time.
-  double groups = std::ceil(static_cast<double>(wavelengths) / 4);
-  double evaluations = method.evaluations(problem, options, extent.rays) * (1 + groups) / 2;
-  return evaluations / profile.pace(method.description().name) +
-         extent.pixels * DeviceProfile::evaluations_per_pixel /
-             profile.pace(DeviceProfile::frame);
+  const double groups = std::ceil(static_cast<double>(wavelengths) / 4),
+               traced = extent.traced(options),
+               of_method = method.evaluations(problem, options, traced) * (1 + groups) / 2,
+               of_frame = extent.is_sparse(options)
+                              ? DeviceProfile::evaluations_of_lattice +
+                                    extent.pixels * DeviceProfile::evaluations_between +
+                                    traced * DeviceProfile::evaluations_per_pixel
+                              : extent.pixels * DeviceProfile::evaluations_per_pixel;
+  return of_method / profile.pace(method.description().name) +
+         of_frame / profile.pace(DeviceProfile::frame);
 }
 
 Plan make_plan(const PlanInputs& inputs) {

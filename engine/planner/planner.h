@@ -22,6 +22,14 @@ using TraceProbe = std::function<std::vector<std::vector<double>>(
 struct Extent {
   double rays = 0;    ///< that meet air or ground
   double pixels = 0;  ///< that are stored and displayed; 0 of rays from a list
+  /// Rays of a frame where the values between them are interpolated to `tolerance`; 0 of what
+  /// is not made so.
+  double sparse_rays = 0;
+  static constexpr double tolerance = 0.002;
+
+  /// Whether such options interpolate it, and the rays that are traced then.
+  bool is_sparse(const MethodOptions& options) const;
+  double traced(const MethodOptions& options) const;
 };
 
 struct PlanInputs {

@@ -14,8 +14,10 @@ struct DeviceProfile {
   /// done with every pixel, whatever it shows.
   std::map<std::string, double> evaluations_per_ms;
   static constexpr const char* frame = "frame";
-  /// For which a pixel counts there.
-  static constexpr double evaluations_per_pixel = 40;
+  /// For which a pixel counts there that is traced; one that lies between those that are; and
+  /// that there are some.
+  static constexpr double evaluations_per_pixel = 40, evaluations_between = 2,
+                          evaluations_of_lattice = 2e6;
 
   /// Of a software device on two cores, where nothing is known of a method.
   static constexpr double nominal = 4e5;

@@ -90,7 +90,7 @@ StarPixels star_pixels(const Problem& problem, Physics<double>& camera, StarLigh
   const std::vector<Star>& stars = star_catalogue();
   for (std::size_t k = 0; k < stars.size(); ++k) {
     std::optional<int> pixel = pixel_of(camera, turn * stars[k].direction);
-    if (pixel) seen.emplace_back(*pixel, k);
+    if (pixel && camera.pixel_ray(*pixel).inside) seen.emplace_back(*pixel, k);
   }
   std::sort(seen.begin(), seen.end());
   StarPixels result;

@@ -10,6 +10,7 @@ layout(binding = OWN + 2, r32f) uniform restrict imageBuffer plane0;
 layout(binding = OWN + 3, r32f) uniform restrict imageBuffer plane1;
 layout(binding = OWN + 4, r32f) uniform restrict imageBuffer plane2;
 layout(binding = OWN + 5, r32f) uniform restrict imageBuffer plane3;
+layout(binding = OWN + 6, r32ui) uniform restrict readonly uimageBuffer pixels;  // of rays from a list
 
 layout(push_constant) uniform Push {
   Vec4 inscatter;      // weight of each quantity in the four planes
@@ -21,6 +22,7 @@ layout(push_constant) uniform Push {
   int first_row;       // of the matrix
   int accumulate;      // add to what other wavelengths left
   int mark_outside;    // plane 3 is -1 where the ray meets neither air nor ground
+  int listed;          // the rays are those of listed pixels
 } push;
 
 void main() {
@@ -48,7 +50,7 @@ void main() {
       value[k] += dot(READ(matrix, (push.first_row + k) * GROUPS + g), light);
     }
   }
-  int at = push.first_ray + i;
+  int at = push.listed != 0 ? int(READ_UINT(pixels, push.first_ray + i)) : push.first_ray + i;
   if (push.accumulate != 0) {
     value += Vec4(READ_REAL(plane0, at), READ_REAL(plane1, at), READ_REAL(plane2, at), READ_REAL(plane3, at));
   }

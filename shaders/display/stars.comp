@@ -21,6 +21,7 @@ layout(push_constant) uniform Push {
   int first_star;
   int stars;
   int planes;        // 3 leaves plane 3 alone
+  int listed;        // the rays are those of the pixels that hold stars
 } push;
 
 void main() {
@@ -29,10 +30,11 @@ void main() {
   if (s >= push.stars) return;
   int star = push.first_star + s;
   int at = star_pixels[star];
-  PixelRay pixel = pixel_ray(at);
+  int ray = push.listed != 0 ? star : at;
+  PixelRay pixel = pixel_ray(ray);
   if (!pixel.inside || path_from_camera(pixel.direction).meets_ground) return;
-  if (end_of_ray(at) < ENDLESS) return;
-  int i = at - push.first_ray;
+  if (end_of_ray(ray) < ENDLESS) return;
+  int i = ray - push.first_ray;
   Vec4 value = Vec4(0.0);
   UNROLL for (int g = 0; g < GROUPS; ++g) {
     Vec4 light = READ(star_radiance, star * GROUPS + g) *

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/engine.h"
+#include "engine/vulkan/buffer_pool.h"
 #include "engine/vulkan/commands.h"
 #include "spirv/combine.spv.h"
 #include "spirv/texels.spv.h"
@@ -353,6 +354,57 @@ std::size_t resident_bytes() {
   std::size_t total = 0, resident = 0;
   file >> total >> resident;
   return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(BufferPools, HandOutWhatWasGivenBack) {
+  Device device("");
+  BufferPool pool(device, 8 << 20);
+  auto buffer = pool.take(1 << 20, Memory::host);
+  const void* memory = buffer->mapped();
+  EXPECT_GE(buffer->size(), std::size_t{1} << 20);
+  const auto other = pool.take(1 << 20, Memory::host);
+  EXPECT_NE(other->mapped(), memory);
+  buffer.reset();
+  EXPECT_EQ(pool.take((1 << 20) - 100, Memory::host)->mapped(), memory);
+  const std::size_t in_use = device.allocated_bytes();
+  pool.clear();
+  EXPECT_LT(device.allocated_bytes(), in_use);
+}
+
+TEST(BufferPools, KeepNoMoreThanTheyMay) {
+  Device device("");
+  const std::size_t before = device.allocated_bytes();
+  BufferPool pool(device, 8 << 20);
+  {
+    std::vector<std::shared_ptr<const Buffer>> many;
+    for (int i = 0; i < 6; ++i) many.push_back(pool.take(2 << 20, Memory::host));
+  }
+  EXPECT_LE(device.allocated_bytes() - before, std::size_t{8} << 20);
+  EXPECT_GE(device.allocated_bytes() - before, std::size_t{6} << 20);
+  pool.take(16 << 20, Memory::host);
+  EXPECT_LE(device.allocated_bytes() - before, std::size_t{8} << 20);
+}
+
+TEST(BufferPools, MayEndBeforeTheirBuffers) {
+  Device device("");
+  const std::size_t before = device.allocated_bytes();
+  std::shared_ptr<const Buffer> buffer;
+  {
+    BufferPool pool(device, 8 << 20);
+    buffer = pool.take(1 << 20, Memory::host);
+  }
+  std::ranges::fill(buffer->as<char>(), 'x');
+  buffer.reset();
+  EXPECT_EQ(device.allocated_bytes(), before);
+}
+
+TEST(BufferPools, GiveUpWhatIsIdleForWhatIsNeeded) {
+  Device device("");
+  BufferPool pool(device, 8 << 20);
+  pool.take(4 << 20, Memory::host).reset();
+  device.limit_memory(device.allocated_bytes() + (1 << 20));
+  EXPECT_NO_THROW(pool.take(3 << 20, Memory::host));
+  EXPECT_THROW(pool.take(64 << 20, Memory::host), OutOfMemory);
 }
 
 TEST(Buffers, ThousandsOfThemLeaveNothingBehindOnWhicheverThreadTheyEnd) {

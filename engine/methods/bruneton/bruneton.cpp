@@ -228,7 +228,7 @@ MethodDescription describe() {
 }  // namespace
 
 const MethodDescription& bruneton_description() {
-  static const MethodDescription description = describe();
+  static const MethodDescription description = interpolated(describe());
   return description;
 }
 

@@ -129,108 +129,110 @@ MethodOptions sky_sizes(int azimuths, int elevations, int view_samples) {
 }  // namespace
 
 const MethodDescription& hillaire_description() {
-  static const MethodDescription description{
-      .name = "hillaire",
-      .title = "Hillaire's tables",
-      .summary =
-          "Small tables of transmittance, of multiple scattering as isotropic light closed by "
-          "a geometric series, and of the sky as the camera sees it. Milliseconds for a frame.",
-      .limits =
-          {{"Orders two and up scatter evenly into all directions, and light of each is "
-            "taken to be the same all around a point: a frame is off by 3 to 8 % by day "
-            "in clear air, 9 to 22 % in haze, smoke and at sunset, a quarter under thick "
-            "clouds, a third to a half from a sun of -9 deg on, at a limb and at an orbital "
-            "sunrise.",
-            {3, 7, 9, 11, 12, 16, 21, 22}},
-           {"Light that went once sideways and once straight on is missing around the "
-            "sun, and taken from half of each forward peak instead.",
-            {3, 13, 14},
-            [](const SceneTraits& scene) { return scene.asymmetry > 0.5; }},
-           {"Of a number of orders above one, the series has as many terms; light that "
-            "the ground reflects more than once is counted with all of its orders.",
-            {8},
-            [](const SceneTraits& scene) { return scene.scattering_orders > 1; }},
-           {"Before objects near the camera most of the air's light is of orders two and "
-            "up: it is off by 20 % in haze by day, by a third and more at sunset.",
-            {2},
-            [](const SceneTraits& scene) { return scene.haze > 0.02; }},
-           {"Seen from below 10 m, ground within a tenth of a degree of the horizon is "
-            "off by 2 %.",
-            {1},
-            [](const SceneTraits& scene) { return scene.altitude_km < 0.02; }},
-           {"Layers thinner than a few hundred metres fall between the table's samples.", {15}},
-           {"From outside the air, light that grazes a layer which nearly hides it changes "
-            "between the samples of a ray along the limb: half of it was missing at 16 "
-            "samples, 2 % at 64.",
-            {},
-            [](const SceneTraits& scene) {
-              return scene.altitude_km > scene.thickness_km && scene.depth > 0.5;
-            }},
-           {"The sky of a camera between 20 and 100 km is off by up to 5 % next to the "
-            "horizon, where few rows of the table lie.",
-            {},
-            [](const SceneTraits& scene) {
-              return scene.altitude_km > 0.2 * scene.thickness_km &&
-                     scene.altitude_km < scene.thickness_km;
-            }},
-           {"Light of a sun many degrees wide comes from its centre from the second "
-            "order on.",
-            {17},
-            [](const SceneTraits& scene) { return scene.sun_diameter_deg > 5; }},
-           {"Where the ground differs from place to place, the light that it sends back "
-            "into the air is that of its mean albedo, slopes and the sea see an even "
-            "sky, and heights shade the air not at all.",
-            {},
-            [](const SceneTraits& scene) { return scene.varied_ground; }}},
-      // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64 azimuths
-      // and 16 samples do what 192 and 32 do.
-      .options =
-          {size_option("transmittance_cosines", "Transmittance: directions",
-                       "Zenith cosines of the table of optical depths.", 8, 1024, 256,
-                       ErrorSource::tables),
-           size_option("transmittance_altitudes", "Transmittance: altitudes",
-                       "Altitudes of the table of optical depths.", 8, 512, 64,
-                       ErrorSource::tables),
-           size_option("multiple_suns", "Multiple scattering: suns",
-                       "Sun cosines of the table of multiple scattering.", 4, 256, 32,
-                       ErrorSource::tables),
-           size_option("multiple_altitudes", "Multiple scattering: altitudes",
-                       "Altitudes of the table of multiple scattering.", 4, 256, 32,
-                       ErrorSource::tables),
-           size_option("multiple_directions", "Multiple scattering: directions",
-                       "Directions over the sphere about each of its points.", 8, 1024, 64,
-                       ErrorSource::quadrature),
-           size_option("multiple_samples", "Multiple scattering: samples",
-                       "Samples along each of these directions.", 4, 64, 20,
-                       ErrorSource::quadrature),
-           size_option("sky_azimuths", "Sky view: azimuths",
-                       "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
-                       64, ErrorSource::tables),
-           size_option("sky_elevations", "Sky view: elevations",
-                       "Elevations of the sky view, half above and half below the horizon.", 4,
-                       512, 108, ErrorSource::tables),
-           size_option("view_samples", "View samples",
-                       "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16,
-                       ErrorSource::quadrature),
-           {.name = "forward_share",
-            .title = "Forward share",
-            .description = "Of the light that its mean cosine says a constituent scatters "
-                           "forwards, the share that orders two and up take as not scattered; "
-                           "0 is Hillaire's own method.",
-            .unit = "",
-            .minimum = 0,
-            .maximum = 0.9,
-            .default_value = 0.5,
-            .integer = false},
-           size_option(
-               "march_pixels", "March each pixel",
-               "1 marches every pixel instead of reading the sky view, as is always done "
-               "from outside the air and for a near or wide sun.",
-               0, 1, 0, ErrorSource::tables)},
-      .ladder = {sky_sizes(32, 64, 12), sky_sizes(64, 108, 16), sky_sizes(192, 216, 32)},
-      .variations = {{{"sky_azimuths", 16}, {"sky_elevations", 32}, {"view_samples", 8}},
-                     {{"march_pixels", 1}},
-                     {{"forward_share", 0}}}};
+  static const MethodDescription description = interpolated(
+      {.name = "hillaire",
+       .title = "Hillaire's tables",
+       .summary =
+           "Small tables of transmittance, of multiple scattering as isotropic light closed by "
+           "a geometric series, and of the sky as the camera sees it. Milliseconds for a "
+           "frame.",
+       .limits =
+           {{"Orders two and up scatter evenly into all directions, and light of each is "
+             "taken to be the same all around a point: a frame is off by 3 to 8 % by day "
+             "in clear air, 9 to 22 % in haze, smoke and at sunset, a quarter under thick "
+             "clouds, a third to a half from a sun of -9 deg on, at a limb and at an orbital "
+             "sunrise.",
+             {3, 7, 9, 11, 12, 16, 21, 22}},
+            {"Light that went once sideways and once straight on is missing around the "
+             "sun, and taken from half of each forward peak instead.",
+             {3, 13, 14},
+             [](const SceneTraits& scene) { return scene.asymmetry > 0.5; }},
+            {"Of a number of orders above one, the series has as many terms; light that "
+             "the ground reflects more than once is counted with all of its orders.",
+             {8},
+             [](const SceneTraits& scene) { return scene.scattering_orders > 1; }},
+            {"Before objects near the camera most of the air's light is of orders two and "
+             "up: it is off by 20 % in haze by day, by a third and more at sunset.",
+             {2},
+             [](const SceneTraits& scene) { return scene.haze > 0.02; }},
+            {"Seen from below 10 m, ground within a tenth of a degree of the horizon is "
+             "off by 2 %.",
+             {1},
+             [](const SceneTraits& scene) { return scene.altitude_km < 0.02; }},
+            {"Layers thinner than a few hundred metres fall between the table's samples.",
+             {15}},
+            {"From outside the air, light that grazes a layer which nearly hides it changes "
+             "between the samples of a ray along the limb: half of it was missing at 16 "
+             "samples, 2 % at 64.",
+             {},
+             [](const SceneTraits& scene) {
+               return scene.altitude_km > scene.thickness_km && scene.depth > 0.5;
+             }},
+            {"The sky of a camera between 20 and 100 km is off by up to 5 % next to the "
+             "horizon, where few rows of the table lie.",
+             {},
+             [](const SceneTraits& scene) {
+               return scene.altitude_km > 0.2 * scene.thickness_km &&
+                      scene.altitude_km < scene.thickness_km;
+             }},
+            {"Light of a sun many degrees wide comes from its centre from the second "
+             "order on.",
+             {17},
+             [](const SceneTraits& scene) { return scene.sun_diameter_deg > 5; }},
+            {"Where the ground differs from place to place, the light that it sends back "
+             "into the air is that of its mean albedo, slopes and the sea see an even "
+             "sky, and heights shade the air not at all.",
+             {},
+             [](const SceneTraits& scene) { return scene.varied_ground; }}},
+       // Sizes are the paper's, but for the sky view: of ratios and with Gauss nodes 64
+       // azimuths and 16 samples do what 192 and 32 do.
+       .options =
+           {size_option("transmittance_cosines", "Transmittance: directions",
+                        "Zenith cosines of the table of optical depths.", 8, 1024, 256,
+                        ErrorSource::tables),
+            size_option("transmittance_altitudes", "Transmittance: altitudes",
+                        "Altitudes of the table of optical depths.", 8, 512, 64,
+                        ErrorSource::tables),
+            size_option("multiple_suns", "Multiple scattering: suns",
+                        "Sun cosines of the table of multiple scattering.", 4, 256, 32,
+                        ErrorSource::tables),
+            size_option("multiple_altitudes", "Multiple scattering: altitudes",
+                        "Altitudes of the table of multiple scattering.", 4, 256, 32,
+                        ErrorSource::tables),
+            size_option("multiple_directions", "Multiple scattering: directions",
+                        "Directions over the sphere about each of its points.", 8, 1024, 64,
+                        ErrorSource::quadrature),
+            size_option("multiple_samples", "Multiple scattering: samples",
+                        "Samples along each of these directions.", 4, 64, 20,
+                        ErrorSource::quadrature),
+            size_option("sky_azimuths", "Sky view: azimuths",
+                        "Azimuths of the sky view, from the sun's to the opposite one.", 2, 512,
+                        64, ErrorSource::tables),
+            size_option("sky_elevations", "Sky view: elevations",
+                        "Elevations of the sky view, half above and half below the horizon.", 4,
+                        512, 108, ErrorSource::tables),
+            size_option("view_samples", "View samples",
+                        "Samples along each ray of the sky view, or of each pixel.", 4, 64, 16,
+                        ErrorSource::quadrature),
+            {.name = "forward_share",
+             .title = "Forward share",
+             .description = "Of the light that its mean cosine says a constituent scatters "
+                            "forwards, the share that orders two and up take as not scattered; "
+                            "0 is Hillaire's own method.",
+             .unit = "",
+             .minimum = 0,
+             .maximum = 0.9,
+             .default_value = 0.5,
+             .integer = false},
+            size_option(
+                "march_pixels", "March each pixel",
+                "1 marches every pixel instead of reading the sky view, as is always done "
+                "from outside the air and for a near or wide sun.",
+                0, 1, 0, ErrorSource::tables)},
+       .ladder = {sky_sizes(32, 64, 12), sky_sizes(64, 108, 16), sky_sizes(192, 216, 32)},
+       .variations = {{{"sky_azimuths", 16}, {"sky_elevations", 32}, {"view_samples", 8}},
+                      {{"march_pixels", 1}},
+                      {{"forward_share", 0}}}});
   return description;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/methods/moments/grid.h"
 #include "engine/methods/moments/tables.h"
 #include "engine/methods/orders.h"
+#include "engine/methods/raymarch/raymarch.h"
 #include "engine/methods/scratch.h"
 #include "spirv/moments.spv.h"
 #include "spirv/moments_add.spv.h"
@@ -124,20 +125,20 @@ class Moments final : public Method {
   double evaluations(const Problem& problem, const MethodOptions& options,
                      double rays) const override {
     MomentSettings settings = settings_of(problem, options);
-    double media = std::max<double>(static_cast<double>(problem.media.size()), 1);
     double beams = settings.altitudes * 1.5 * settings.directions * settings.suns;
     // Fitted to the times of random scenes (`audit`), of which nearly all are within a third.
     double first_order = 240 * beams * settings.azimuths;
     double others = 5.8 * beams * settings.orders * settings.steps * (settings.degree + 2);
     double sky = 1.8 * options.at("sky_elevations") * options.at("sky_azimuths") *
                  options.at("sky_steps") * (40 + 2 * settings.degree);
-    double marched = rays * problem.sun_disc_samples, pixels_read = 0;
+    double marched = rays, pixels_read = 0;
     if (may_read_first_order(problem, options)) {
       constexpr double a_lookup = 6;
       pixels_read = rays * a_lookup;
       marched = options.at("first_elevations") * options.at("first_azimuths");
     }
-    double pixels = marched * options.at("view_nodes") * 16 * media + pixels_read;
+    double pixels =
+        marched * evaluations_of_march(problem, options.at("view_nodes")) + pixels_read;
     return 1e6 + first_order + others + sky + pixels;
   }
 
@@ -436,12 +437,11 @@ MethodOptions sizes(int degree, int steps_finer, bool march) {
 }  // namespace
 
 const MethodDescription& moments_description() {
-  static const MethodDescription description{
+  static const MethodDescription description = interpolated({
       .name = "moments",
       .title = "Moment tables",
-      .summary =
-          "Order one by a Gauss march on every ray; all others from small tables of the "
-          "light's spherical-harmonic moments over altitude and the sun's elevation.",
+      .summary = "Order one by a Gauss march on every ray; all others from small tables of the "
+                 "light's spherical-harmonic moments over altitude and the sun's elevation.",
       .limits =
           {{"Forward peaks sharper than the moments resolve (g above 0.8 at an optical "
             "depth of 0.2 and more) blur the light next to a low sun and to the horizon; under "
@@ -538,7 +538,7 @@ const MethodDescription& moments_description() {
                  ErrorSource::quadrature)},
       .ladder = {sizes(4, 0, false), sizes(0, 0, false), sizes(0, 0, true), sizes(0, 1, true),
                  sizes(0, 2, true)},
-  };
+  });
   return description;
 }
 

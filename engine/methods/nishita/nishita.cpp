@@ -126,7 +126,7 @@ class Nishita final : public Method {
 }  // namespace
 
 const MethodDescription& nishita_description() {
-  static const MethodDescription description{
+  static const MethodDescription description = interpolated({
       .name = "nishita",
       .title = "Nishita's nested march",
       .summary =
@@ -174,7 +174,7 @@ const MethodDescription& nishita_description() {
                      {{"view_samples", 64}, {"light_samples", 16}},
                      {{"view_samples", 128}, {"light_samples", 32}},
                      {{"view_samples", 256}, {"light_samples", 64}}},
-  };
+  });
   return description;
 }
 

@@ -13,6 +13,9 @@ std::unique_ptr<Method> make_raymarch(vulkan::Device& device);
 /// the drivers' limit, and the evaluations that a ray costs under one sun.
 /// @throws OverLimit
 int march_pieces_at_once(const UploadedScene& scene, int view_nodes);
+
+/// Evaluations of one ray, under all points of the sun's disc, as plans reckon.
+double evaluations_of_march(const Problem& problem, double view_nodes);
 std::int64_t march_evaluations(std::int64_t media, int view_nodes);
 
 }  // namespace cyanometer
