@@ -1,5 +1,6 @@
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <array>
 #include <cfenv>
 #include <cmath>
@@ -108,7 +109,10 @@ std::vector<Panels> Engine::table_panels(const Scene& scene, const Watch& watch)
 
 void Engine::forget_tables() { parts_->tables.clear(); }
 
-std::size_t Engine::device_bytes() const { return parts_->device.allocated_bytes(); }
+std::size_t Engine::device_bytes() const {
+  const std::size_t idle = parts_->buffers.idle_bytes(), all = parts_->device.allocated_bytes();
+  return all - std::min(idle, all);  // others free memory in between
+}
 
 KernelUse Engine::kernels() const {
   const vulkan::PipelineUse use = parts_->device.pipelines();

@@ -248,6 +248,9 @@ class Engine {
   void warm(const Watch& watch = {});
   /// Device time of a frame whose tables are made anew. The first of its form compiles too.
   double frame_ms(const Scene& scene, const Plan& plan, const Watch& watch = {});
+  /// The median time of a pass that only stores the pixels of such a frame, four at once: what
+  /// frames are measured against.
+  double store_ms(const Image& image, const Watch& watch = {});
   /// Measures how fast the device is, some seconds, keeps it, and plans by it from now on.
   /// @returns evaluations a millisecond by method
   std::map<std::string, double> measure_profile(const Watch& watch = {});

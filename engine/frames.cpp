@@ -141,4 +141,19 @@ Frame Engine::render(const Scene& scene, const Plan& plan, const Picture* pictur
   return frame;
 }
 
+double Engine::store_ms(const Image& image, const Watch& watch) {
+  constexpr int repeats = 15;
+  const FrameStore store(parts_->device, parts_->buffers,
+                         static_cast<std::size_t>(image.width) * image.height, 1,
+                         encoding(image.format).displayed);
+  Tracer tracer = parts_->tracer("display", watch);
+  std::vector<double> times;
+  for (int i = 0; i <= repeats; ++i) {
+    const double ms = parts_->compositor.store_only(tracer, store);
+    if (i > 0) times.push_back(ms);  // the first also compiles, and touches the memory
+  }
+  std::ranges::nth_element(times, times.begin() + repeats / 2);
+  return times[repeats / 2];
+}
+
 }  // namespace cyanometer

@@ -11,6 +11,7 @@
 #include "spirv/fill_planes.spv.h"
 #include "spirv/overlay.spv.h"
 #include "spirv/stars.spv.h"
+#include "spirv/store.spv.h"
 
 namespace cyanometer {
 namespace {
@@ -133,7 +134,8 @@ Compositor::Compositor(vulkan::Device& device)
       overlay_(device, overlay_spirv, UploadedScene::bindings + 8, sizeof(OverlayPush)),
       display_(device, display_spirv, 8, sizeof(DisplayPush)),
       fill_levels_(device, fill_levels_spirv, 6, sizeof(FillPush)),
-      fill_planes_(device, fill_planes_spirv, 4, sizeof(FillPush)) {}
+      fill_planes_(device, fill_planes_spirv, 4, sizeof(FillPush)),
+      store_(device, store_spirv, 1, sizeof(std::int32_t)) {}
 
 Compositor::Job Compositor::prepare(vulkan::Device& device, const UploadedScene& scene,
                                     const std::vector<PlaneGroup>& groups, std::size_t first,
@@ -276,6 +278,24 @@ void Compositor::display(Tracer& tracer, const Image& image, const Output& outpu
                              {vulkan::groups_for(push.end - push.first, 64)});
     tracer.submit();
   }
+}
+
+double Compositor::store_only(Tracer& tracer, const FrameStore& store) {
+  const auto words = static_cast<std::int32_t>(store.pixels / 4);
+  auto run = [&](const vulkan::Binding& to) {
+    tracer.commands.dispatch(store_, {}, {to}, vulkan::bytes_of(words),
+                             {vulkan::groups_for(static_cast<std::size_t>(words), 64)},
+                             vulkan::Order::independent);
+  };
+  if (store.rgbx) {
+    run({*store.rgbx, 0, store.pixels * 4});
+  } else {
+    for (std::size_t c = 0; c < 3; ++c) run(store.plane(0, c));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  tracer.submit();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 void Compositor::fill(Tracer& tracer, const Lattice& lattice,

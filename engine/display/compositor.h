@@ -29,7 +29,7 @@ struct FrameStore {
   std::span<float> levels(std::size_t c) const;
 
   std::size_t pixels;
-  std::size_t stride;                        ///< floats from one plane to the next
+  std::size_t stride;  ///< floats from one plane to the next
   using Memory = std::shared_ptr<const vulkan::Buffer>;
   std::vector<Memory> buffers;  ///< four planes each
   Memory rgbx;                  ///< null where nothing is displayed
@@ -86,6 +86,10 @@ class Compositor {
   /// The same of pixels that are listed, with their levels.
   void display(Tracer& tracer, const Image& image, const Output& output, double exposure_ev,
                const FrameStore& store, const PixelList& listed);
+  /// Fills `store.rgbx` or, where nothing is displayed, R, G and B, with nothing that was
+  /// computed.
+  /// @returns its time, ms
+  double store_only(Tracer& tracer, const FrameStore& store);
   /// Records what lies between a lattice's rays: `store.rgbx` where there are levels, else the
   /// groups' planes.
   void fill(Tracer& tracer, const Lattice& lattice, const std::vector<PlaneGroup>& groups,
@@ -98,7 +102,7 @@ class Compositor {
                      const Tile& tile, std::size_t group, std::vector<vulkan::Binding> bindings,
                      const PixelList* listed);
 
-  vulkan::Kernel compose_, stars_, overlay_, display_, fill_levels_, fill_planes_;
+  vulkan::Kernel compose_, stars_, overlay_, display_, fill_levels_, fill_planes_, store_;
   StarLight star_light_;
 };
 

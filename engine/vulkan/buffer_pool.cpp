@@ -79,6 +79,11 @@ std::shared_ptr<const Buffer> BufferPool::take(std::size_t bytes, Memory memory)
   return {new Buffer(*std::move(buffer)), back};
 }
 
+std::size_t BufferPool::idle_bytes() const {
+  const std::lock_guard lock(idle_->mutex);
+  return idle_->total;
+}
+
 void BufferPool::clear() {
   std::list<Idle::Kept> freed;
   const std::lock_guard lock(idle_->mutex);

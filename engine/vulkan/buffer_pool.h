@@ -22,6 +22,8 @@ class BufferPool {
   std::shared_ptr<const Buffer> take(std::size_t bytes, Memory memory);
   /// Frees all that nobody uses.
   void clear();
+  /// Kept while nobody uses it; also from other threads.
+  std::size_t idle_bytes() const;
 
  private:
   struct Idle;

@@ -64,12 +64,15 @@ class LoadReportRun {
     if (!arguments_.rates_only) left_ += missing_errors(settings_, survey_).size();
     if (left_ == 0) return;
     all_ = left_;
+    Engine engine({.device = arguments_.device});
     const int most = std::ranges::max(settings_.clients);
     // One address asks with all of them, and has three quarters of the places.
     const OwnDaemon daemon({"--device", arguments_.device, "--queue", std::to_string(2 * most),
                             "--threads", std::to_string(2 * most + 64)});
     daemon.wait_until_ready(watch_);
-    const SurveyedDaemon surveyed{daemon.origin(), daemon.pid()};
+    const SurveyedDaemon surveyed{daemon.origin(), daemon.pid(), [&](const Image& image) {
+                                    return engine.store_ms(image, watch_);
+                                  }};
     measure_rates(
         surveyed, settings_, watch_, [&](const auto& point) { add(point); }, survey_);
     if (arguments_.rates_only) return;

@@ -27,8 +27,8 @@ struct SurveyPoint {
   std::size_t failed = 0, truncated = 0;  ///< answers other than 200; images without an end
   Floor floor = {};                       ///< measured just before
 
-  /// The least time of a frame of this class: black pixels stored and a picture encoded, one
-  /// after the other; of a frame that does not change, an answer without any.
+  /// The least time of a frame of this class: pixels stored and a picture encoded, one after
+  /// the other; of a frame that does not change, an answer without any.
   double floor_ms() const {
     return vary == "nothing" ? floor.answer_ms : floor.store_ms + floor.encode_ms;
   }
@@ -72,6 +72,8 @@ struct SurveySettings {
 struct SurveyedDaemon {
   std::string origin;
   pid_t process = 0;
+  /// Of its device: Engine::store_ms.
+  std::function<double(const Image&)> store_ms;
 };
 
 /// What is to be measured and is not in the survey, without figures; fewest clients first.

@@ -15,7 +15,7 @@ using nlohmann::json;
 class RateSurvey {
  public:
   RateSurvey(const SurveyedDaemon& daemon, const SurveySettings& settings, const Watch& watch)
-      : settings_(settings), watch_(watch) {
+      : settings_(settings), watch_(watch), store_ms_(daemon.store_ms) {
     load_.origin = daemon.origin;
     load_.daemon = daemon.process;
   }
@@ -25,13 +25,12 @@ class RateSurvey {
       const auto found = report.stage_ms.find(name);
       return found == report.stage_ms.end() ? 0 : quantile(found->second, 0.5);
     };
-    const LoadReport stored =
-        load(unlit_scene(of.width, of.height, of.format), Variation::exposure, 1);
+    const double stored_ms = store_ms_(read_scene(scene(of)).image);
     const LoadReport encoded = load(scene(of), Variation::exposure, 1);
     load_.get = "/healthz";
     const LoadReport answered = load({}, Variation::nothing, of.clients);
     load_.get.clear();
-    return {stage(stored, "render"), stage(encoded, "encode"), 1000 / answered.frames_per_s()};
+    return {stored_ms, stage(encoded, "encode"), 1000 / answered.frames_per_s()};
   }
 
   void measure(SurveyPoint& point) {
@@ -75,6 +74,7 @@ class RateSurvey {
 
   const SurveySettings& settings_;
   const Watch& watch_;
+  const std::function<double(const Image&)>& store_ms_;
   LoadSettings load_;
 };
 

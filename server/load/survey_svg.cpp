@@ -97,11 +97,10 @@ class SurveyDrawing {
     svg_.text(survey_margin, 64, survey_.device + ", version " + survey_.version + ".",
               "faint");
     svg_.line(survey_margin + 2, 72, survey_margin + 2, 86, "floor");
-    svg_.text(
-        survey_margin + 10, 84,
-        "the floor: black pixels stored, a picture encoded; of identical frames, an answer "
-        "without any. Notches: fewer or more clients",
-        "small");
+    svg_.text(survey_margin + 10, 84,
+              "the floor: pixels stored, a picture encoded; of identical frames, an answer "
+              "without any. Notches: fewer or more clients",
+              "small");
   }
 
   void panel(const FrameSize& size, const std::string& format) {

@@ -12,10 +12,9 @@ Clients ask one after another, each as soon as it has its answer, over one conne
 processors they share with the daemon. What varies goes to and fro as in an animation, some 120 frames each way, and no two frames
 are equal, but where they are identical: those were kept. Plans and tables that a frame needs anew are made on the way.
 
-The **floor** of a frame is measured just before its frames a second, by one client: the device's time of a frame that sees neither
-planet nor air, of order 0 at three wavelengths, so that black pixels are stored and (PNG and JPEG) displayed, without tone mapping;
-and the time that encoding a rendered frame of the scene takes; one after the other. That is the least that the engine does for any
-frame. A pass of the device that did nothing but store would take less. Several clients may come under the floor, for one's frame is
+The **floor** of a frame is measured just before its frames a second: the time of a pass of the device that only stores its pixels
+(four bytes each where they are displayed, four of each channel where not), and the time that encoding a rendered frame of the scene
+takes; one after the other. Several clients may come under the floor, for one's frame is
 encoded while the device has another's. Identical frames need neither: their floor is the time from one answer of `/healthz` to the next, with as many
 clients. **Over the floor** is the time from one frame to the next divided by that.
 )";
