@@ -20,8 +20,18 @@ using Samples = std::vector<std::vector<double>>;
 constexpr std::array<int, 7> wavelength_ladder{4, 6, 8, 12, 16, 24, 32};
 
 /// What is measured on some hundreds of rays holds for the frame in 95 % of frames with this
-/// factor.
-constexpr double frame_over_sample = 1.8;
+/// factor; of a small frame a row at the horizon, which may be nearer to it than any of them,
+/// is a larger share.
+constexpr double frame_over_sample = 1.5, small_frame_over_sample = 1.8;
+constexpr double small_frame = 1 << 14;  // pixels
+
+double over_sample(const Extent& extent) {
+  return extent.pixels < small_frame ? small_frame_over_sample : frame_over_sample;
+}
+
+/// Of the error of colour from few wavelengths, that of all orders and pixels over that of
+/// single scattering on these rays.
+constexpr double frame_over_single_scattering = 1.2;
 
 /// What is left of the finest setting's error, over what its last step changed.
 constexpr double over_last_step = 1.3;
@@ -50,7 +60,7 @@ constexpr double longest_walks = 60000, longest_usual_walks = 10000;
 
 /// Within a time that is asked for lies what is expected to take this much less: in 95 % of
 /// random scenes it takes no longer than that (`audit`).
-constexpr double time_to_spare = 1.4;
+constexpr double time_to_spare = 1.3;
 
 /// What a frame aims at where nothing else is asked.
 constexpr double usual_error = 0.02;
@@ -119,8 +129,10 @@ class Judge {
 class QuickJudge final : public Judge {
  public:
   /// @param rung  of the method's ladder, at least 1
-  QuickJudge(const Method& method, std::size_t rung, const TraceProbe& probe,
-             const std::vector<double>& wavelengths_nm, bool parts) {
+  QuickJudge(const Method& method, std::size_t rung, const PlanInputs& inputs,
+             const std::vector<double>& wavelengths_nm)
+      : over_sample_(over_sample(inputs.extent)) {
+    const TraceProbe& probe = inputs.probe;
     const MethodDescription& description = method.description();
     best_ = probe(description.name, description.ladder[rung], wavelengths_nm);
     Samples coarser = probe(description.name, description.ladder[rung - 1], wavelengths_nm);
@@ -131,7 +143,7 @@ class QuickJudge final : public Judge {
     Samples once = probe("raymarch", coarse_march, wavelengths_nm);
     double further = measure_error(once, best_).error;
     double common =
-        parts ? std::max(common_error, common_error_of_parts * further) : common_error;
+        inputs.parts ? std::max(common_error, common_error_of_parts * further) : common_error;
     best_error_ = std::hypot(best_error_, common * further);
   }
 
@@ -144,11 +156,12 @@ class QuickJudge final : public Judge {
   }
 
   double bound(const Samples& samples) const override {
-    const double from_best = frame_over_sample * measure_error(samples, best_).error;
+    const double from_best = over_sample_ * measure_error(samples, best_).error;
     return std::hypot(from_best, best_error_, walked_error_);
   }
 
  private:
+  double over_sample_;
   Samples best_;
   double best_error_ = 0, walked_error_ = 0;
 };
@@ -274,7 +287,7 @@ class Planner {
   std::unique_ptr<QuickJudge> quick_judge(const Method& best) const {
     for (std::size_t rung = affordable_rung(best);; --rung) {
       try {
-        return std::make_unique<QuickJudge>(best, rung, in_.probe, few_, in_.parts);
+        return std::make_unique<QuickJudge>(best, rung, in_, few_);
       } catch (const OverLimit&) {
         if (rung == 1) throw;
       }
@@ -377,8 +390,9 @@ std::vector<Wavelengths> choose_wavelengths(const PlanInputs& inputs, double tol
   Samples reference = trace(64);
   std::vector<Wavelengths> chosen;
   for (int count : wavelength_ladder) {
-    chosen.push_back({colour_wavelengths(count), measure_error(trace(count), reference).error});
-    if (chosen.back().error <= tolerance) break;
+    const double error = measure_error(trace(count), reference).error;
+    chosen.push_back({colour_wavelengths(count), frame_over_single_scattering * error});
+    if (error <= tolerance) break;
   }
   return chosen;
 }
