@@ -242,7 +242,7 @@ class Engine {
   void inject(const EngineFaults& faults);
   /// Drops all tables, as though no frame had been made yet.
   void forget_tables();
-  /// Renders two small frames, so that first requests find compiled what most of them need; and
+  /// Renders a small frame, so that first requests find compiled what most of them need; and
   /// at the first start on a device measures its profile, where profiles are kept.
   /// @throws Cancelled
   void warm(const Watch& watch = {});

@@ -176,8 +176,11 @@ std::map<std::string, double> defaults_of(const MethodDescription& method) {
 }
 
 std::vector<std::map<std::string, double>> chart_settings(const MethodDescription& method) {
+  // As `auto` makes frames, which charts are to tell apart by more than by that.
+  constexpr double interpolation = 0.002;
   std::vector<std::map<std::string, double>> settings = method.ladder;
-  const std::map<std::string, double> defaults = defaults_of(method);
+  std::map<std::string, double> defaults = defaults_of(method);
+  if (!method.random) defaults["interpolation"] = interpolation;
   for (const std::map<std::string, double>& change : method.variations) {
     std::map<std::string, double> varied = defaults;
     for (const auto& [name, value] : change) varied.at(name) = value;

@@ -36,6 +36,49 @@ void round_size(Image& image) {
   image.height = height;
 }
 
+/// The factor that takes an amount to the next power of a ratio.
+double up_to_next(double amount) {
+  constexpr double ratio = 1.08;
+  if (!(amount > 0)) return 1;
+  return std::pow(ratio, std::ceil(std::log(amount) / std::log(ratio) - 1e-9)) / amount;
+}
+
+void round_up(double& amount) { amount *= up_to_next(amount); }
+
+void round_up(Spectrum& spectrum) {
+  struct {
+    void operator()(double& value) const { round_up(value); }
+    void operator()(PowerLaw& law) const { round_up(law.value); }
+    void operator()(PerWavelength& each) const { scale(each.values); }
+    void operator()(SampledSpectrum& sampled) const { scale(sampled.values); }
+    static void scale(std::vector<double>& values) {
+      const double factor = up_to_next(*std::ranges::max_element(values));
+      for (double& value : values) value *= factor;
+    }
+  } visitor;
+  std::visit(visitor, spectrum);
+}
+
+/// How much there is of each constituent, up by less than a tenth: more is harder.
+struct RoundAmountUp {
+  void operator()(Molecules& molecules) const { std::visit(*this, molecules.optics); }
+  void operator()(Particles& particles) const { std::visit(*this, particles.optics); }
+  void operator()(Absorber& absorber) const { std::visit(*this, absorber.optics); }
+  void operator()(Gas& gas) const { round_up(gas.pressure_pa); }
+  void operator()(ScatteringCoefficient& of) const { round_up(of.scattering_per_km); }
+  void operator()(ParticleCoefficients& of) const {
+    round_up(of.scattering_per_km);
+    round_up(of.absorption_per_km);
+  }
+  void operator()(ParticleOpticalDepth& of) const { round_up(of.optical_depth); }
+  void operator()(MieOpticalDepth& of) const { round_up(of.value); }
+  void operator()(Visibility& of) const {
+    of.visibility_km /= up_to_next(1 / of.visibility_km);
+  }
+  void operator()(AbsorptionCoefficient& of) const { round_up(of.absorption_per_km); }
+  void operator()(Ozone& ozone) const { round_up(ozone.dobson_units); }
+};
+
 /// From outside the air, with little of the planet in the frame or nothing: turned a little,
 /// the camera sees another share of it.
 bool looks_past_planet(const Scene& scene) {
@@ -53,6 +96,8 @@ Scene nearby(const Scene& scene) {
   Scene near = scene;
   double elevation = near.sun.elevation_deg;
   near.sun.elevation_deg = std::clamp(rounded(elevation, sun_step_deg(elevation)), -90.0, 90.0);
+  for (auto& [name, constituent] : near.atmosphere.constituents)
+    std::visit(RoundAmountUp(), constituent.matter);
   Camera& camera = near.camera;
   double step = std::min(camera.fov_deg / 8, 5.0);
   if (!looks_past_planet(scene)) {

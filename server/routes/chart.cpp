@@ -20,7 +20,7 @@ using nlohmann::json;
 ChartSettings live_settings() {
   ChartSettings settings;
   settings.reference = {.rays = 128, .noise = 0.01, .most_walks = 2048};
-  settings.pixels = 160 * 90;
+  settings.pixels = 320 * 180;
   settings.longest_ms = 1000;
   settings.keep_tables = true;
   return settings;
