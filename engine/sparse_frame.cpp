@@ -26,6 +26,7 @@ float median_of_positive(std::span<const float> values, const std::vector<int>& 
 
 class Engine::Parts::SparseFrame {
  public:
+  /// @param work  outlives it
   SparseFrame(Parts& parts, const FrameWork& work, const Watch& watch)
       : parts_(parts),
         work_(work),
@@ -62,8 +63,6 @@ class Engine::Parts::SparseFrame {
 
   void make() {
     settle();
-    if (getenv("CY"))
-      fprintf(stderr, "actual %d of %zu\n", lattice_.traced(), work_.store.pixels);
     parts_.compositor.fill(tracer_, lattice_, work_.groups, work_.store);
     add_stars();
   }
@@ -212,16 +211,13 @@ double Engine::Parts::sparse_rays_of(const Scene& scene, const Watch& watch) {
   Frame frame;
   FrameStore store(device, buffers, static_cast<std::size_t>(problem.width) * problem.height,
                    groups.size(), false);
-  SparseFrame counted(*this, {small, problem, output, plan, groups, nullptr, frame, store},
-                      watch);
+  const FrameWork work{small, problem, output, plan, groups, nullptr, frame, store};
+  SparseFrame counted(*this, work, watch);
   counted.settle();
   // What bends along lines takes more rays as their length, what bends everywhere as the area.
   const double share = counted.traced() / static_cast<double>(store.pixels),
                power = std::min(0.6 + 1.7 * share, 2.0),
                finer = std::sqrt(pixels / static_cast<double>(store.pixels));
-  if (getenv("CY"))
-    fprintf(stderr, "counted %d of %zu, expected %.0f of %.0f\n", counted.traced(),
-            store.pixels, counted.traced() * std::pow(finer, power), pixels);
   return counted.traced() * std::pow(finer, power);
 }
 

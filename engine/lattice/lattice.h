@@ -5,6 +5,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <vector>

@@ -36,14 +36,14 @@ void round_size(Image& image) {
   image.height = height;
 }
 
-/// The factor that takes an amount to the next power of a ratio.
-double up_to_next(double amount) {
+/// To the next power of a ratio.
+double rounded_up(double amount) {
   constexpr double ratio = 1.08;
-  if (!(amount > 0)) return 1;
-  return std::pow(ratio, std::ceil(std::log(amount) / std::log(ratio) - 1e-9)) / amount;
+  if (!(amount > 0)) return amount;
+  return std::pow(ratio, std::ceil(std::log(amount) / std::log(ratio) - 1e-9));
 }
 
-void round_up(double& amount) { amount *= up_to_next(amount); }
+void round_up(double& amount) { amount = rounded_up(amount); }
 
 void round_up(Spectrum& spectrum) {
   struct {
@@ -52,8 +52,10 @@ void round_up(Spectrum& spectrum) {
     void operator()(PerWavelength& each) const { scale(each.values); }
     void operator()(SampledSpectrum& sampled) const { scale(sampled.values); }
     static void scale(std::vector<double>& values) {
-      const double factor = up_to_next(*std::ranges::max_element(values));
-      for (double& value : values) value *= factor;
+      const double most = *std::ranges::max_element(values), factor = rounded_up(most) / most;
+      if (!(most > 0)) return;
+      // In floats, which differences in the last bit of a product do not tell apart.
+      for (double& value : values) value = static_cast<float>(value * factor);
     }
   } visitor;
   std::visit(visitor, spectrum);
@@ -73,7 +75,7 @@ struct RoundAmountUp {
   void operator()(ParticleOpticalDepth& of) const { round_up(of.optical_depth); }
   void operator()(MieOpticalDepth& of) const { round_up(of.value); }
   void operator()(Visibility& of) const {
-    of.visibility_km /= up_to_next(1 / of.visibility_km);
+    of.visibility_km = 1 / rounded_up(1 / of.visibility_km);
   }
   void operator()(AbsorptionCoefficient& of) const { round_up(of.absorption_per_km); }
   void operator()(Ozone& ozone) const { round_up(ozone.dobson_units); }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/planner/nearby.h"
@@ -47,6 +48,52 @@ TEST(Nearby, SeesWhatItsFrameSees) {
     EXPECT_GT(seen(nearby(scene)), 0.7 * seen(scene)) << pitch_deg;
     EXPECT_LT(seen(nearby(scene)), 1.4 * seen(scene)) << pitch_deg;
   }
+}
+
+/// Optical depths at three wavelengths, of all constituents that have one.
+std::map<std::string, std::vector<double>> extinction_of(const Scene& scene) {
+  std::map<std::string, std::vector<double>> result;
+  for (const Medium& medium : make_problem(scene, {440, 550, 680}).media) {
+    for (std::size_t w = 0; w < 3; ++w)
+      result[medium.name].push_back(medium.scattering_per_km[w] + medium.absorption_per_km[w]);
+  }
+  return result;
+}
+
+TEST(Nearby, HasAsMuchOfEachConstituentOrATwelfthMore) {
+  json visible{{"atmosphere",
+                {{"constituents",
+                  {{"aerosol",
+                    {{"optical_depth", nullptr},
+                     {"single_scattering_albedo", nullptr},
+                     {"visibility_km", 23}}}}}}}};
+  for (const json& document :
+       {json::object(), json{{"preset", "mars"}}, json{{"preset", "titan"}},
+        json{{"preset", "earth_smoke"}}, json{{"preset", "gas_mixture"}},
+        json{{"preset", "thesis_defaults"}}, visible}) {
+    const Scene scene = read_scene(document);
+    const auto there = extinction_of(scene), near = extinction_of(nearby(scene));
+    ASSERT_EQ(there.size(), near.size()) << document;
+    for (const auto& [name, depths] : there) {
+      for (std::size_t w = 0; w < depths.size(); ++w) {
+        EXPECT_GE(near.at(name)[w], depths[w] * (1 - 1e-6)) << document << name;
+        EXPECT_LE(near.at(name)[w], depths[w] * 1.081) << document << name;
+      }
+    }
+  }
+}
+
+TEST(Nearby, AirThatChangesALittleIsMostlyPlannedAsOne) {
+  int plans = 0;
+  Scene before;
+  for (double pressure_pa = 80000; pressure_pa < 101000; pressure_pa += 200) {
+    const Scene near = nearby(read_scene(
+        {{"atmosphere", {{"constituents", {{"air", {{"pressure_pa", pressure_pa}}}}}}}}));
+    plans += canonical(near) != canonical(before) || plans == 0;
+    before = near;
+  }
+  EXPECT_LE(plans, 4);
+  EXPECT_GE(plans, 3);
 }
 
 TEST(Planner, StatesTheErrorOfTheLittleThatAFrameSees) {
