@@ -57,9 +57,10 @@ void Engine::Parts::overlay(const FrameWork& work, const Watch& watch) {
                      work.groups, luminance, work.store);
 }
 
-double Engine::Parts::exposure_of(const FrameWork& work, std::span<const float> luminance) {
+double Engine::Parts::exposure_of(const FrameWork& work, std::span<const float> luminance,
+                                  std::span<const float> areas) {
   return work.scene.image.exposure_ev.value_or(
-      automatic_exposure_ev(luminance, work.output.white_card));
+      automatic_exposure_ev(luminance, work.output.white_card, areas));
 }
 
 void Engine::Parts::make_pixel_by_pixel(const FrameWork& work, const Watch& watch) {

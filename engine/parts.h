@@ -129,7 +129,9 @@ struct Engine::Parts {
   void make_pixel_by_pixel(const FrameWork& work, const Watch& watch);
   void trace_frame(const FrameWork& work, const Watch& watch);
   void overlay(const FrameWork& work, const Watch& watch);
-  static double exposure_of(const FrameWork& work, std::span<const float> luminance);
+  /// @param areas  as automatic_exposure_ev has them
+  static double exposure_of(const FrameWork& work, std::span<const float> luminance,
+                            std::span<const float> areas = {});
   /// Whether the plan interpolates, and the frame is one of which that can be done.
   static bool is_sparse(const FrameWork& work);
   /// As many pixels as it takes, and the others between them (sparse_frame.cpp).

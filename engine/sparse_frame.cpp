@@ -1,6 +1,7 @@
 // Frames of which some rays are traced and the other pixels follow between them (lattice/).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/parts.h"
 
@@ -50,7 +51,8 @@ class Engine::Parts::SparseFrame {
     const std::vector<int> first = lattice_.wanted();
     trace(first);
     tracer_.submit();
-    work_.frame.exposure_ev = parts_.exposure_of(work_, luminance_of(first));
+    // Near enough to tell what levels bend.
+    work_.frame.exposure_ev = Parts::exposure_of(work_, luminance_of(first));
     show(first);
     const std::vector<Interpolated> values = interpolated(first);
     double left = 1;
@@ -63,6 +65,7 @@ class Engine::Parts::SparseFrame {
 
   void make() {
     settle();
+    expose();
     parts_.compositor.fill(tracer_, lattice_, work_.groups, work_.store);
     add_stars();
   }
@@ -74,6 +77,7 @@ class Engine::Parts::SparseFrame {
   void trace(const std::vector<int>& pixels, bool stars = false) {
     darken_outside();
     if (pixels.empty()) return;
+    if (!stars) traced_.insert(traced_.end(), pixels.begin(), pixels.end());
     std::vector<glm::dvec3> directions;
     directions.reserve(pixels.size());
     for (int pixel : pixels) directions.push_back(camera_.pixel_ray(pixel).direction);
@@ -123,6 +127,24 @@ class Engine::Parts::SparseFrame {
     return luminance;
   }
 
+  /// By all of the frame; what was shown before is shown again.
+  void expose() {
+    std::vector<float> luminance = luminance_of(lattice_.singles()),
+                       areas(luminance.size(), 1.f);
+    for (const auto& [side, cells] : lattice_.cells()) {
+      for (int first : cells) {
+        float sum = 0;
+        for (int corner : lattice_.corners(first, side))
+          sum += work_.store.samples(0, 3)[static_cast<std::size_t>(corner)];
+        luminance.push_back(sum / 4);
+        areas.push_back(static_cast<float>(lattice_.pixels(first, side)));
+      }
+    }
+    const double before =
+        std::exchange(work_.frame.exposure_ev, Parts::exposure_of(work_, luminance, areas));
+    if (work_.frame.exposure_ev != before) show(traced_);
+  }
+
   /// All planes that the frame has, by the contract's measure of errors; colours beside the
   /// luminance.
   std::vector<Interpolated> interpolated(const std::vector<int>& pixels) const {
@@ -159,6 +181,7 @@ class Engine::Parts::SparseFrame {
   bool displayed_;
   std::vector<Batch> batches_;
   std::vector<Compositor::Job> jobs_;
+  std::vector<int> traced_;  ///< pixels
 };
 
 namespace {

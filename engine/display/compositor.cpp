@@ -105,20 +105,22 @@ std::span<float> FrameStore::levels(std::size_t c) const {
 PixelList::PixelList(vulkan::Device& device, const std::vector<int>& pixels)
     : numbers(upload(device, pixels)), count(static_cast<int>(pixels.size())) {}
 
-double automatic_exposure_ev(std::span<const float> luminance, double white_card) {
+double automatic_exposure_ev(std::span<const float> luminance, double white_card,
+                             std::span<const float> areas) {
   // A stop above middle grey: skies are bright things.
   constexpr double aim = 0.36;
   // What is 8 stops below the mean is black in the picture however it is exposed: night sides
   // and grounds in the shade don't make the rest too bright.
   constexpr double black = 1.0 / 256;
   // A sample of the pixels is as good: their mean varies far less than an eye can tell.
-  std::size_t step = std::max<std::size_t>(luminance.size() / 65536, 1) | 1;
+  std::size_t step = areas.empty() ? std::max<std::size_t>(luminance.size() / 65536, 1) | 1 : 1;
   auto mean_over = [&](double least, auto value) {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < luminance.size(); i += step) {
       if (luminance[i] <= least) continue;
-      sum += value(luminance[i]);
-      ++count;
+      const double area = areas.empty() ? 1 : areas[i];
+      sum += area * value(luminance[i]);
+      count += area;
     }
     return count > 0 ? sum / count : 0;
   };

@@ -49,7 +49,9 @@ struct PixelList {
 /// @param luminance  of each pixel; what is not positive, or black beside the rest, does not
 /// count
 /// @param white_card  luminance that is shown as 1 at exposure 0
-double automatic_exposure_ev(std::span<const float> luminance, double white_card);
+/// @param areas  that each of them stands for; none where they are equal
+double automatic_exposure_ev(std::span<const float> luminance, double white_card,
+                             std::span<const float> areas = {});
 
 class Compositor {
  public:

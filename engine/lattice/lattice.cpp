@@ -124,12 +124,34 @@ void Lattice::settle(std::span<const Interpolated> values) {
   wanted_.clear();
   outside_.clear();
   std::vector<Parent> smaller;
-  if (side_ > 1) {
-    for (const Parent& parent : parents_) look_at(parent, values, smaller);
+  for (const Parent& parent : parents_) {
+    if (side_ > 1) {
+      look_at(parent, values, smaller);
+    } else {
+      settle_pixels(parent);
+    }
   }
   side_ /= 2;
   parents_ = std::move(smaller);
   for (const Parent& parent : parents_) want_nodes(parent);
+}
+
+void Lattice::settle_pixels(const Parent& parent) {
+  const int x0 = parent.pixel % width_, y0 = parent.pixel / width_;
+  for (int y = y0; y <= std::min(y0 + 1, last_row(y0)); ++y) {
+    for (int x = x0; x <= std::min(x0 + 1, width_ - 1); ++x) singles_.push_back(pixel(x, y));
+  }
+}
+
+std::array<int, 4> Lattice::corners(int first, int side) const {
+  const int x = first % width_, y = first / width_, right = std::min(x + side, width_ - 1),
+            below = std::min(y + side, last_row(y));
+  return {first, pixel(right, y), pixel(x, below), pixel(right, below)};
+}
+
+int Lattice::pixels(int first, int side) const {
+  const int x = first % width_, y = first / width_;
+  return std::min(side, width_ - x) * std::min(side, last_row(y) + 1 - y);
 }
 
 /// Settles its cells, or wants them to be smaller.

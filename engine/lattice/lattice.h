@@ -44,6 +44,11 @@ class Lattice {
   /// those a side further or, where the picture or a cube's face ends before, in the last
   /// column and row.
   const std::map<int, std::vector<int>>& cells() const { return cells_; }
+  /// Pixels that are in no cell, each traced.
+  const std::vector<int>& singles() const { return singles_; }
+  /// Of a cell.
+  std::array<int, 4> corners(int first, int side) const;
+  int pixels(int first, int side) const;
   int width() const { return width_; }
   /// Rows after which neighbours are neighbours no more: of a face of a cube, or of the frame.
   int panel() const { return panel_; }
@@ -84,6 +89,7 @@ class Lattice {
   Kind kind_of(int pixel);
   void want_nodes(const Parent& parent);
   void want(int pixel, Kind kind);
+  void settle_pixels(const Parent& parent);
   void look_at(const Parent& parent, std::span<const Interpolated> values,
                std::vector<Parent>& smaller);
   bool is_straight(int x, int y, std::span<const Interpolated> values) const;
@@ -106,6 +112,7 @@ class Lattice {
   int side_;                     ///< of their four cells
   std::vector<int> wanted_, outside_;
   std::map<int, std::vector<int>> cells_;
+  std::vector<int> singles_;
   int traced_ = 0;
 };
 

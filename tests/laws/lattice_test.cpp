@@ -57,6 +57,14 @@ class Settled {
   /// How many cells have the pixel, or 1 where it is traced and none has.
   const std::vector<int>& times() const { return times_; }
   int traced() const { return lattice_.traced(); }
+  /// Pixels of all cells, and those in none.
+  int pixels() const {
+    auto count = static_cast<int>(lattice_.singles().size());
+    for (const auto& [side, corners] : lattice_.cells()) {
+      for (int corner : corners) count += lattice_.pixels(corner, side);
+    }
+    return count;
+  }
 
  private:
   void trace(int pixel) {
@@ -105,6 +113,7 @@ TEST(Lattice, EveryPixelIsTracedOrInOneCell) {
       ASSERT_FALSE(std::isnan(settled.filled()[i])) << document << " pixel " << i;
       ASSERT_LE(settled.times()[i], 1) << document << " pixel " << i;
     }
+    EXPECT_EQ(settled.pixels(), static_cast<int>(settled.filled().size())) << document;
     EXPECT_LT(settled.traced(), 0.6 * static_cast<double>(settled.filled().size())) << document;
   }
 }
@@ -242,6 +251,15 @@ TEST(SparseFrame, IsDisplayedWithinALevelOfTheFrameOfAllRays) {
                         << i / 4 / full.width;
     }
     EXPECT_LT(apart, bytes / 4) << each.name;
+  }
+}
+
+TEST(SparseFrame, IsExposedAsTheFrameOfAllRays) {
+  for (const FrameCase& each : frame_cases()) {
+    if (each.document["image"].contains("exposure_ev")) continue;
+    const double full = frame_of(each.document, "png", plan_with(0)).exposure_ev;
+    EXPECT_NEAR(frame_of(each.document, "png", plan_with(0.004)).exposure_ev, full, 0.02)
+        << each.name;
   }
 }
 
