@@ -653,7 +653,7 @@ TEST(Chart, PointsComeLineByLineUntilTheReaderLeaves) {
   std::getline(stream, line);
   const auto head = json::parse(line);
   EXPECT_GT(head.at("points"), 10);
-  EXPECT_EQ(head.at("width"), 160);
+  EXPECT_EQ(head.at("width"), 320);
   std::set<std::string> methods_seen;
   for (int i = 0; i < 3; ++i) {
     std::getline(stream, line);
