@@ -69,6 +69,12 @@ vulkan::Buffer upload(vulkan::Device& device, const std::vector<T>& values) {
   return buffer;
 }
 
+/// As texels of four words: whole ones.
+vulkan::Binding in_fours(const vulkan::Binding& words) {
+  constexpr std::size_t four = 16;
+  return {words.buffer, words.offset, words.size / four * four};
+}
+
 }  // namespace
 
 FrameStore::FrameStore(vulkan::Device& device, vulkan::BufferPool& pool, std::size_t pixels_,
@@ -290,9 +296,9 @@ double Compositor::store_only(Tracer& tracer, const FrameStore& store) {
                              vulkan::Order::independent);
   };
   if (store.rgbx) {
-    run({*store.rgbx, 0, store.pixels * 4});
+    run(in_fours({*store.rgbx, 0, store.pixels * 4}));
   } else {
-    for (std::size_t c = 0; c < 3; ++c) run(store.plane(0, c));
+    for (std::size_t c = 0; c < 3; ++c) run(in_fours(store.plane(0, c)));
   }
   const auto start = std::chrono::steady_clock::now();
   tracer.submit();
@@ -315,12 +321,13 @@ void Compositor::fill(Tracer& tracer, const Lattice& lattice,
     };
     if (levels) {
       const vulkan::Binding rgbx(*store.rgbx, 0, store.pixels * 4);
-      run(fill_levels_, {cells, store.level(0), store.level(1), store.level(2), rgbx, rgbx});
+      run(fill_levels_,
+          {cells, store.level(0), store.level(1), store.level(2), rgbx, in_fours(rgbx)});
     } else {
       for (std::size_t g = 0; g < groups.size(); ++g) {
         for (std::size_t k = 0; k < groups[g].channels.size(); ++k) {
           const vulkan::Binding plane = store.plane(g, k);
-          run(fill_planes_, {cells, plane, plane, plane});
+          run(fill_planes_, {cells, plane, plane, in_fours(plane)});
         }
       }
     }
