@@ -68,6 +68,7 @@ class Engine::Parts::SparseFrame {
     expose();
     parts_.compositor.fill(tracer_, lattice_, work_.groups, work_.store);
     add_stars();
+    work_.store.level_planes.reset();  // the frame's memory is that of what it shows
   }
 
   int traced() const { return lattice_.traced(); }
@@ -186,9 +187,6 @@ class Engine::Parts::SparseFrame {
 
 namespace {
 
-/// Smaller frames are as quickly traced pixel by pixel.
-constexpr double fewest_pixels = 1 << 14;
-
 /// The same picture of so many pixels at the most, without what it is stored for.
 Scene counted_scene(const Scene& scene, double most_pixels) {
   Scene small = scene;
@@ -210,7 +208,7 @@ Scene counted_scene(const Scene& scene, double most_pixels) {
 bool Engine::Parts::is_sparse(const FrameWork& work) {
   const auto tolerance = work.plan.options.find("interpolation");
   return tolerance != work.plan.options.end() && tolerance->second > 0 && !work.picture &&
-         !work.problem.ground && static_cast<double>(work.store.pixels) >= fewest_pixels;
+         !work.problem.ground && work.store.pixels >= Lattice::fewest_pixels;
 }
 
 void Engine::Parts::make_sparsely(const FrameWork& work, const Watch& watch) {
@@ -220,7 +218,12 @@ void Engine::Parts::make_sparsely(const FrameWork& work, const Watch& watch) {
 double Engine::Parts::sparse_rays_of(const Scene& scene, const Watch& watch) {
   constexpr double counted_pixels = 1 << 17;
   const double pixels = 1.0 * scene.image.width * scene.image.height;
-  if (pixels < fewest_pixels || !std::holds_alternative<UniformSurface>(scene.planet.surface))
+  const auto& options = scene.method.options;
+  const auto asked = options.find("interpolation");
+  const bool all_rays =
+      scene.method.name != "auto" && (asked == options.end() || asked->second == 0);
+  if (all_rays || pixels < Lattice::fewest_pixels ||
+      !std::holds_alternative<UniformSurface>(scene.planet.surface))
     return 0;
   const Scene small = counted_scene(scene, counted_pixels);
   Plan plan;

@@ -25,6 +25,8 @@ struct Interpolated {
 
 class Lattice {
  public:
+  /// Frames of fewer pixels are as quickly traced pixel by pixel.
+  static constexpr int fewest_pixels = 1 << 14;
   /// Pixels a side of the cells that it begins with, at the most.
   static constexpr int coarsest = 32;
 

@@ -1,4 +1,5 @@
 // The methods there are.
+#include "engine/lattice/lattice.h"
 #include "engine/methods/bruneton/bruneton.h"
 #include "engine/methods/hillaire/hillaire.h"
 #include "engine/methods/method.h"
@@ -21,8 +22,9 @@ MethodDescription interpolated(MethodDescription description) {
       {.name = "interpolation",
        .title = "Interpolation",
        .description = "How far a pixel between rays that are traced may be off, as a share of "
-                      "its value; rays are as many as that takes, in frames of 16384 pixels "
-                      "and more over an even ground. 0 traces every pixel.",
+                      "its value; rays are as many as that takes, in frames of " +
+                      std::to_string(Lattice::fewest_pixels) +
+                      " pixels and more over an even ground. 0 traces every pixel.",
        .unit = "",
        .minimum = 0,
        .maximum = 0.1,

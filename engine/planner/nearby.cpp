@@ -52,8 +52,9 @@ void round_up(Spectrum& spectrum) {
     void operator()(PerWavelength& each) const { scale(each.values); }
     void operator()(SampledSpectrum& sampled) const { scale(sampled.values); }
     static void scale(std::vector<double>& values) {
-      const double most = *std::ranges::max_element(values), factor = rounded_up(most) / most;
+      const double most = *std::ranges::max_element(values);
       if (!(most > 0)) return;
+      const double factor = rounded_up(most) / most;
       // In floats, which differences in the last bit of a product do not tell apart.
       for (double& value : values) value = static_cast<float>(value * factor);
     }
