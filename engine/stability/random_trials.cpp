@@ -66,8 +66,23 @@ bool is_wanted(const std::string& method, const RandomTrialSettings& settings) {
   return only.empty() || std::ranges::find(only, method) != only.end();
 }
 
-Options options_of(const MethodDescription& method, const RandomTrialSettings& settings) {
-  if (settings.usual_options) return {};
+std::string name_of(TrialOptions options) {
+  switch (options) {
+    case TrialOptions::smallest:
+      return "smallest";
+    case TrialOptions::usual:
+      return "usual";
+    case TrialOptions::ladder:
+      return "ladder";
+  }
+  return {};
+}
+
+Options options_of(const MethodDescription& method, std::uint64_t seed,
+                   const RandomTrialSettings& settings) {
+  if (settings.options == TrialOptions::usual) return {};
+  if (settings.options == TrialOptions::ladder && !method.ladder.empty())
+    return method.ladder[std::mt19937_64(seed)() % method.ladder.size()];
   // So many ask thin layers for, not to jump from sample to sample.
   if (settings.nudge && method.name == "nishita")
     return {{"view_samples", 256}, {"light_samples", 16}};
@@ -192,7 +207,11 @@ class Run {
  public:
   Run(Engine& engine, std::uint64_t seed, const RandomTrialSettings& settings,
       const Watch& watch)
-      : engine_(engine), settings_(settings), watch_(watch), document_(scene_of(seed)) {
+      : engine_(engine),
+        seed_(seed),
+        settings_(settings),
+        watch_(watch),
+        document_(scene_of(seed)) {
     const Scene scene = read_scene(document_);
     directions_ = sample_directions(scene, 16);
     pictured_ = seed % methods().size();
@@ -202,7 +221,7 @@ class Run {
                {"refusals", json::array()}};
     // What order one in double knows nothing of has no change of its own to be held against.
     const bool one_ground = std::holds_alternative<UniformSurface>(scene.planet.surface);
-    if (settings.nudge && one_ground) nudge(seed);
+    if (settings.nudge && one_ground) nudge();
   }
 
   json done() {
@@ -217,11 +236,14 @@ class Run {
   }
 
  private:
+  /// Smaller ones are interpolated nowhere.
+  int width_of_picture() const { return settings_.options == TrialOptions::ladder ? 192 : 16; }
+
   Trial trial(const std::string& method) const { return Trial(engine_, method, {}, 1, watch_); }
 
-  void nudge(std::uint64_t seed) {
+  void nudge() {
     auto numbers = numbers_of(document_);
-    std::shuffle(numbers.begin(), numbers.end(), std::mt19937_64(seed));
+    std::shuffle(numbers.begin(), numbers.end(), std::mt19937_64(seed_));
     // Counts cannot change a little.
     const auto chosen = std::ranges::find_if(numbers, [&](const json::json_pointer& number) {
       other_ = nudged(document_, number);
@@ -249,8 +271,8 @@ class Run {
 
   void attempt(const MethodDescription& method, bool pictured) {
     noted(method.name, [&] {
-      const Plan plan = plan_by(document_, method, options_of(method, settings_));
-      if (pictured) trial(method.name).picture(document_, plan);
+      const Plan plan = plan_by(document_, method, options_of(method, seed_, settings_));
+      if (pictured) trial(method.name).picture(document_, width_of_picture(), plan);
       if (auto change = change_by(plan)) changes_[method.name] = *change;
     });
   }
@@ -287,6 +309,7 @@ class Run {
   }
 
   Engine& engine_;
+  std::uint64_t seed_;
   const RandomTrialSettings& settings_;
   const Watch& watch_;
   json document_, other_;
@@ -316,7 +339,7 @@ json settings_document(const RandomTrialSettings& settings) {
   }
   return {{"methods", std::move(tried)},
           {"nudge", settings.nudge},
-          {"usual_options", settings.usual_options}};
+          {"options", name_of(settings.options)}};
 }
 
 json random_trial(Engine& engine, std::uint64_t seed, const RandomTrialSettings& settings,

@@ -11,14 +11,21 @@
 
 namespace cyanometer {
 
+/// By what options each method is tried.
+enum class TrialOptions {
+  smallest,  ///< tables as small as still have something to interpolate
+  usual,     ///< its defaults
+  ladder,    ///< a setting that `auto` chooses among, most pixels interpolated
+};
+
 struct RandomTrialSettings {
-  bool usual_options = false;  ///< each method at its defaults, else with its smallest tables
+  TrialOptions options = TrialOptions::smallest;
   std::vector<std::string> methods = {};  ///< only these; none: all
   bool nudge = false;  ///< also changes one number of the scene by a ten-thousandth
 };
 
 /// What decides a trial beside its seed, as it stands in it: {"methods": those that are tried,
-/// "nudge", "usual_options"}.
+/// "nudge", "options"}.
 nlohmann::json settings_document(const RandomTrialSettings& settings);
 
 /// {"seed", "settings", "failures": [{"method", "what"}], "refusals": the same}, and where a

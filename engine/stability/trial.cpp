@@ -164,12 +164,12 @@ Radiances Trial::look(const json& document, const std::vector<Direction>& direct
   return radiances;
 }
 
-void Trial::picture(const json& document, const Plan& plan) {
+void Trial::picture(const json& document, int width, const Plan& plan) {
   watch_.check();
   json small = document;
-  small["image"]["width"] = 16;
+  small["image"]["width"] = width;
   if (scene_of(small).camera.projection == Projection::perspective)
-    small["image"]["height"] = 9;
+    small["image"]["height"] = width * 9 / 16;
   const Scene scene = scene_of(small);
   Frame frame = engine_.render(scene, plan, watch_);
   const int pixels = frame.width * frame.height;

@@ -64,9 +64,10 @@ class Trial {
   Radiances look(const nlohmann::json& scene, const std::vector<Direction>& directions,
                  const Plan& plan);
 
-  /// Renders a small frame of the scene by the plan, as a picture with all that it shows.
+  /// Renders a frame of the scene by the plan, as a picture with all that it shows.
+  /// @param width  in pixels, the height being 9/16 of it or what the projection takes
   /// @throws BrokenFrame where a pixel is not finite, and as `look` does
-  void picture(const nlohmann::json& scene, const Plan& plan);
+  void picture(const nlohmann::json& scene, int width, const Plan& plan);
 
   /// Order one in double (adaptive.h), [direction][wavelength], the sun's irradiance being 1:
   /// radiances, or transmittances to the ground or the top.

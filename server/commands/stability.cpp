@@ -20,7 +20,7 @@ struct StabilityArguments {
   std::vector<int> rows;
   std::vector<std::string> methods;
   StabilitySettings settings{.references = cache_folder("references")};
-  std::uint64_t random = 0, first = 0, nudge_each = 10;
+  std::uint64_t random = 0, first = 0, nudge_each = 10, ladder_each = 100;
   bool usual_options = false;
 };
 
@@ -105,9 +105,14 @@ class StabilityRun {
 };
 
 RandomTrialSettings settings_of(const StabilityArguments& arguments, std::uint64_t seed) {
-  return {.usual_options = arguments.usual_options,
-          .methods = arguments.methods,
-          .nudge = seed % arguments.nudge_each == 0};
+  RandomTrialSettings settings{.methods = arguments.methods,
+                               .nudge = seed % arguments.nudge_each == 0};
+  const bool by_ladder = (seed + 1) % arguments.ladder_each == 0;
+  if (arguments.usual_options)
+    settings.options = TrialOptions::usual;
+  else if (by_ladder && !settings.nudge)
+    settings.options = TrialOptions::ladder;
+  return settings;
 }
 
 /// What an earlier run left of this version on this device and was asked the same, by seed.
@@ -201,6 +206,12 @@ void add_stability(CLI::App& app) {
       ->add_option("--nudge-each", arguments->nudge_each,
                    "One of so many random scenes is changed a little, and its picture may "
                    "change but a little")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--ladder-each", arguments->ladder_each,
+                   "One of so many is rendered by settings that auto chooses among, not with "
+                   "the smallest tables")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_flag(

@@ -44,7 +44,7 @@ TEST(RandomScenes, SayWhatWasTriedOnThem) {
   EXPECT_EQ(trial.at("settings").at("methods"), nlohmann::json{"raymarch"});
   EXPECT_EQ(settings_document({}).at("methods").size(), methods().size());
   EXPECT_NE(settings_document({}), settings_document({.nudge = true}));
-  EXPECT_NE(settings_document({}), settings_document({.usual_options = true}));
+  EXPECT_NE(settings_document({}), settings_document({.options = TrialOptions::usual}));
 }
 
 /// The kernels of the scenes that are air and haze serve all of these, where enough are kept.
@@ -55,9 +55,9 @@ EngineOptions with_many_kernels() {
 }
 
 /// Half of the methods each, in turns; all where a number is changed, as what a change is worth
-/// is told by what the others make of it. Of forms that are whatever a document can say two,
-/// and no changes, for their kernels are compiled for that form alone and take most of the
-/// time.
+/// is told by what the others make of it. Few by settings that `auto` chooses among, which take
+/// seconds. Of forms that are whatever a document can say two, and no changes, for their
+/// kernels are compiled for that form alone and take most of the time.
 RandomTrialSettings settings_of(std::uint64_t seed) {
   const std::uint64_t form = seed / scenes_of_a_form;
   const std::size_t count = methods().size();
@@ -68,6 +68,7 @@ RandomTrialSettings settings_of(std::uint64_t seed) {
   }
   if (seed % 40 == 0) return {.nudge = true};
   RandomTrialSettings settings;
+  if (seed % 201 == 99) settings.options = TrialOptions::ladder;
   for (std::size_t i = seed % 2; i < count; i += 2)
     settings.methods.push_back(methods()[i].name);
   return settings;
@@ -85,7 +86,8 @@ class RandomScene : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScene, IsFiniteAndContinuousAtTheDefaults) {
   static Engine engine;
-  expect_sound(engine, GetParam(), {.usual_options = true, .nudge = GetParam() % 2 == 0});
+  expect_sound(engine, GetParam(),
+               {.options = TrialOptions::usual, .nudge = GetParam() % 2 == 0});
 }
 INSTANTIATE_TEST_SUITE_P(RandomScenes, RandomScene, testing::Range<std::uint64_t>(0, 20));
 
