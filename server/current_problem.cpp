@@ -5,7 +5,6 @@
 
 #include "engine/scene/document.h"
 #include "server/log.h"
-#include "server/queue/render_queue.h"
 
 namespace cyanometer {
 namespace {
@@ -32,14 +31,6 @@ HttpProblem problem_of(const Cancelled& cancelled) {
              : HttpProblem(client_left, "The client left.");
 }
 
-HttpProblem problem_of(const QueueFull& full) {
-  const bool client = full.whose == QueueFull::Whose::client;
-  HttpProblem problem(client ? 429 : 503, client ? "Too many requests of this client wait."
-                                                 : "The render queue is full.");
-  problem.retry_after_s = full.retry_after_s;
-  return problem;
-}
-
 HttpProblem no_memory(const char* what) {
   log_event(spdlog::level::err, std::string("out of memory: ") + what);
   HttpProblem problem(503, "There is no memory for this now.");
@@ -54,6 +45,14 @@ HttpProblem no_device() {
 }
 
 }  // namespace
+
+HttpProblem problem_of(const QueueFull& full) {
+  const bool client = full.whose == QueueFull::Whose::client;
+  HttpProblem problem(client ? 429 : 503, client ? "Too many requests of this client wait."
+                                                 : "The render queue is full.");
+  problem.retry_after_s = full.retry_after_s;
+  return problem;
+}
 
 HttpProblem current_problem() {
   try {

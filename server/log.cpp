@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +51,20 @@ void log_line(spdlog::level::level_enum level, nlohmann::ordered_json line) {
   static std::mutex one_line;
   const std::lock_guard lock(one_line);
   if (would_be_taken()) logger().log(level, std::string_view(text).substr(1, text.size() - 2));
+}
+
+bool SparingLog::next() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  const std::int64_t second = std::chrono::duration_cast<std::chrono::seconds>(now).count();
+  const std::lock_guard lock(mutex_);
+  if (second != second_) {
+    const int left_out = lines_ - most_lines_per_s;
+    second_ = second;
+    lines_ = 0;
+    if (left_out > 0)
+      log_line(spdlog::level::info, {{"event", event_}, {"lines_left_out", left_out}});
+  }
+  return ++lines_ <= most_lines_per_s;
 }
 
 void log_event(spdlog::level::level_enum level, const std::string& event) {

@@ -88,11 +88,13 @@ std::string Router::label(const Request& request) const {
 Answer Router::answer(const Request& request) const {
   const auto start = Clock::now();
   Answer answer;
+  bool logged = true;
   try {
     answer = dispatch(request);
-  } catch (const QueueFull&) {
+  } catch (const QueueFull& full) {
     ++service_.turned_away;
-    answer = answer_of(current_problem(), request.id);
+    logged = service_.refusals.next();
+    answer = answer_of(problem_of(full), request.id);
   } catch (...) {
     answer = answer_of(current_problem(), request.id);
   }
@@ -104,6 +106,7 @@ Answer Router::answer(const Request& request) const {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::string route = label(request);
   service_.metrics.answered(route, known_method(request.method), answer.status, seconds);
+  if (!logged) return answer;
   const bool probe = is_probe(route) || route == "/metrics";
   log_line(probe ? spdlog::level::debug : spdlog::level::info,
            {{"id", request.id},

@@ -7,6 +7,7 @@
 #include "server/admission.h"
 #include "server/config.h"
 #include "server/http/message.h"
+#include "server/log.h"
 #include "server/metrics.h"
 #include "server/queue/frames.h"
 #include "server/queue/plans.h"
@@ -25,6 +26,7 @@ struct Service {
   Frames frames;
   std::atomic<bool> draining{false};
   std::atomic<std::uint64_t> turned_away{0};  ///< requests that were told of a full queue
+  SparingLog refusals{"turned away"};         ///< of those
   std::function<int()> connections = [] { return 0; };
 
   bool ready() const { return queue.ready() && !draining; }

@@ -22,6 +22,12 @@ double ms_between(std::chrono::steady_clock::time_point from,
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::optional<Cancelled::Reason> cancelled_by(const std::exception_ptr& error) {
   if (!error) return std::nullopt;
   try {
@@ -364,6 +370,7 @@ void RenderQueue::attempt(Entry& entry) {
   table_bytes_ = engine_->tables().bytes;
   recent_ms_.push_back(ms_between(start, Clock::now()) - entry.ticket.given_away_ms);
   if (recent_ms_.size() > recent_jobs) recent_ms_.pop_front();
+  usual_ms_ = median({recent_ms_.begin(), recent_ms_.end()});
 }
 
 void RenderQueue::replace_device(const std::string& reason) {
@@ -410,11 +417,7 @@ void RenderQueue::fail(const std::string& reason) {
 }
 
 int RenderQueue::retry_after_s() const {
-  std::vector<double> times(recent_ms_.begin(), recent_ms_.end());
-  if (times.empty()) return 1;
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::ranges::nth_element(times, middle);
-  const double seconds = *middle * static_cast<double>(waiting_.size() + 1) / 1000;
+  const double seconds = usual_ms_ * static_cast<double>(waiting_.size() + 1) / 1000;
   return static_cast<int>(std::clamp(std::ceil(seconds), 1.0, 3600.0));
 }
 

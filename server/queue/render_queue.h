@@ -150,6 +150,7 @@ class RenderQueue {
   std::uint64_t turn_ = 0, arrivals_ = 0;
   std::size_t frame_bytes_alive_ = 0;
   std::deque<double> recent_ms_;
+  double usual_ms_ = 0;  ///< their median
   Counts counts_;
   std::size_t table_bytes_ = 0;
   bool stopping_ = false;

@@ -289,6 +289,17 @@ TEST(Queue, AFullOneRefusesAndSaysWhenToComeBack) {
   hold.let_go();
 }
 
+TEST(SparingLog, WritesSoManyLinesASecondHoweverManyThereAre) {
+  const auto start = std::chrono::steady_clock::now();
+  SparingLog log("of a test");
+  int written = 0;
+  for (int i = 0; i < 1000; ++i) written += log.next();
+  const auto seconds =
+      std::chrono::ceil<std::chrono::seconds>(std::chrono::steady_clock::now() - start);
+  EXPECT_GE(written, SparingLog::most_lines_per_s);
+  EXPECT_LE(written, SparingLog::most_lines_per_s * (seconds.count() + 1));
+}
+
 /// A daemon whose device is held and whose queue is full of jobs of one client.
 struct Full {
   Full(const Config& config, const std::string& client, std::size_t jobs) : daemon(config) {
