@@ -66,6 +66,14 @@ bool is_wanted(const std::string& method, const RandomTrialSettings& settings) {
   return only.empty() || std::ranges::find(only, method) != only.end();
 }
 
+/// One form of scenes in four is whatever a document can say; the others are air and haze in
+/// which every method has something to show, and are quick.
+bool says_anything(std::uint64_t seed) { return seed / scenes_of_a_form % 4 == 3; }
+
+json scene_of(std::uint64_t seed) {
+  return says_anything(seed) ? any_scene(seed) : random_scene(seed);
+}
+
 std::string name_of(TrialOptions options) {
   switch (options) {
     case TrialOptions::smallest:
@@ -81,7 +89,9 @@ std::string name_of(TrialOptions options) {
 Options options_of(const MethodDescription& method, std::uint64_t seed,
                    const RandomTrialSettings& settings) {
   if (settings.options == TrialOptions::usual) return {};
-  if (settings.options == TrialOptions::ladder && !method.ladder.empty())
+  // What a document can say may have 64 wavelengths: its ladder takes minutes.
+  if (settings.options == TrialOptions::ladder && !says_anything(seed) &&
+      !method.ladder.empty())
     return method.ladder[std::mt19937_64(seed)() % method.ladder.size()];
   // So many ask thin layers for, not to jump from sample to sample.
   if (settings.nudge && method.name == "nishita")
@@ -106,12 +116,6 @@ Plan plan_by(json document, const MethodDescription& method, const Options& opti
   plan.options = scene.method.options;
   plan.wavelengths_nm = wavelengths_of(scene);
   return plan;
-}
-
-/// One form of scenes in four is whatever a document can say; the others are air and haze in
-/// which every method has something to show, and are quick.
-json scene_of(std::uint64_t seed) {
-  return seed / scenes_of_a_form % 4 == 3 ? any_scene(seed) : random_scene(seed);
 }
 
 /// Pointers to all numbers of the scene that may change a little: not counts, not pixels, nor
@@ -237,7 +241,10 @@ class Run {
 
  private:
   /// Smaller ones are interpolated nowhere.
-  int width_of_picture() const { return settings_.options == TrialOptions::ladder ? 192 : 16; }
+  static int width_of_picture(const Plan& plan) {
+    const auto interpolation = plan.options.find("interpolation");
+    return interpolation != plan.options.end() && interpolation->second > 0 ? 192 : 16;
+  }
 
   Trial trial(const std::string& method) const { return Trial(engine_, method, {}, 1, watch_); }
 
@@ -272,7 +279,7 @@ class Run {
   void attempt(const MethodDescription& method, bool pictured) {
     noted(method.name, [&] {
       const Plan plan = plan_by(document_, method, options_of(method, seed_, settings_));
-      if (pictured) trial(method.name).picture(document_, width_of_picture(), plan);
+      if (pictured) trial(method.name).picture(document_, width_of_picture(plan), plan);
       if (auto change = change_by(plan)) changes_[method.name] = *change;
     });
   }

@@ -15,7 +15,7 @@ namespace cyanometer {
 enum class TrialOptions {
   smallest,  ///< tables as small as still have something to interpolate
   usual,     ///< its defaults
-  ladder,    ///< a setting that `auto` chooses among, most pixels interpolated
+  ladder,    ///< of air and haze a setting that `auto` chooses among, most pixels interpolated
 };
 
 struct RandomTrialSettings {
