@@ -162,7 +162,7 @@ json chart_operation() {
         {"failure", {{"type", "string"}}}}}};
   json responses =
       openapi::responses({{"application/x-ndjson", {{"schema", {{"oneOf", {first, point}}}}}}},
-                         {400, 408, 411, 413, 415, 422, 429, 503, 504});
+                         {411, 422, 429, 504});
   responses["200"]["description"] =
       "Lines of JSON, as the points are measured; a problem ends them. Times are of small "
       "frames "

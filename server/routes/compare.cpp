@@ -137,8 +137,7 @@ json compare_operation() {
   content["image/png"] = {{"schema", json::object()}};
   return {{"requestBody", body},
           {"parameters", openapi::link_parameters()},
-          {"responses",
-           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
+          {"responses", openapi::responses(content, {406, 411, 422, 429, 504})}};
 }
 
 }  // namespace

@@ -115,8 +115,7 @@ json day_operation() {
         {"highest", moment},
         {"moments", moments}}}};
   return {{"requestBody", openapi::json_body(body)},
-          {"responses",
-           openapi::responses(openapi::json_content(answer), {400, 408, 411, 413, 415})}};
+          {"responses", openapi::responses(openapi::json_content(answer), {411})}};
 }
 
 }  // namespace

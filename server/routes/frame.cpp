@@ -122,8 +122,7 @@ nlohmann::json frame_operation() {
   for (const auto& each : encodings()) {
     content[std::string(each.media_type)] = {{"schema", nlohmann::json::object()}};
   }
-  nlohmann::json responses =
-      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
+  nlohmann::json responses = openapi::responses(content, {406, 411, 422, 429, 504});
   openapi::add_header(
       responses, "Cache-Status",
       "RFC 9211: kept (hit), or rendered, where `collapsed` for another's request.");

@@ -103,8 +103,7 @@ json live_document_operation(const std::string& member, const json& answer) {
   json content = openapi::json_content(answer);
   content["application/x-ndjson"] = {{"schema", line}};
   return {{"requestBody", openapi::json_body(openapi::scene_schema_reference())},
-          {"responses",
-           openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504})}};
+          {"responses", openapi::responses(content, {406, 411, 422, 429, 504})}};
 }
 
 }  // namespace cyanometer

@@ -41,6 +41,23 @@ json embedded_scene_schema() {
   return schema;
 }
 
+json problem_response(int status) {
+  return {{"description", status_phrase(status)},
+          {"content",
+           {{"application/problem+json",
+             {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
+}
+
+/// What any request may be answered: one that cannot be read as HTTP, or with a token that is
+/// not the right one, and where there is no room or device.
+void add_common_problems(json& operation) {
+  json& all = operation["responses"];
+  for (const int status : {400, 401, 408, 413, 414, 415, 417, 431, 503}) {
+    const std::string name = std::to_string(status);
+    if (!all.contains(name)) all[name] = problem_response(status);
+  }
+}
+
 std::string operation_id(const Route& route) {
   std::string id = route.method + route.path;
   std::ranges::transform(id, id.begin(), [](char c) {
@@ -74,13 +91,7 @@ json json_content(const json& schema) { return {{"application/json", {{"schema",
 
 json responses(const json& content, std::initializer_list<int> problems) {
   json out{{"200", {{"description", "OK"}, {"content", content}}}};
-  for (const int status : problems) {
-    out[std::to_string(status)] = {
-        {"description", status_phrase(status)},
-        {"content",
-         {{"application/problem+json",
-           {{"schema", {{"$ref", "#/components/schemas/Problem"}}}}}}}};
-  }
+  for (const int status : problems) out[std::to_string(status)] = problem_response(status);
   return out;
 }
 
@@ -96,6 +107,7 @@ json document() {
     json operation = route.operation();
     operation["summary"] = route.summary;
     operation["operationId"] = operation_id(route);
+    add_common_problems(operation);
     std::string method = route.method;
     std::ranges::transform(method, method.begin(),
                            [](char c) { return static_cast<char>(c + ('a' - 'A')); });

@@ -13,7 +13,8 @@ nlohmann::json json_body(const nlohmann::json& schema);
 nlohmann::json scene_schema_reference();
 /// The parameters of a link: any dotted path of a scene.
 nlohmann::json link_parameters();
-/// Responses: 200 with these media types, and the problems among these statuses.
+/// Responses: 200 with these media types, and problems of these statuses beside those that any
+/// request may be answered.
 nlohmann::json responses(const nlohmann::json& content, std::initializer_list<int> problems);
 nlohmann::json json_content(const nlohmann::json& schema);
 /// Adds a response header to the 200 answer.

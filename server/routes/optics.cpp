@@ -72,8 +72,7 @@ json optics_operation() {
         {"phase_wavelengths_nm", list},
         {"constituents", {{"type", "object"}, {"additionalProperties", constituent}}}}}};
   return {{"requestBody", openapi::json_body(openapi::scene_schema_reference())},
-          {"responses", openapi::responses(openapi::json_content(answer),
-                                           {400, 408, 411, 413, 415, 422, 504})}};
+          {"responses", openapi::responses(openapi::json_content(answer), {411, 422, 504})}};
 }
 
 }  // namespace

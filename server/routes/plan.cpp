@@ -37,8 +37,8 @@ json plan_operation() {
                       {"why", text},
                       {"limits", {{"type", "array"}, {"items", text}}},
                       {"atmosphere", text}}}};
-  return {{"responses", openapi::responses(openapi::json_content(schema),
-                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
+  return {
+      {"responses", openapi::responses(openapi::json_content(schema), {411, 422, 429, 504})}};
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ json radiance_operation() {
         {"irradiance",
          {{"type", "object"},
           {"properties", {{"direct", list}, {"diffuse_down", list}, {"diffuse_up", list}}}}}}}};
-  return {{"requestBody", openapi::json_body(body)},
-          {"responses", openapi::responses(openapi::json_content(answer),
-                                           {400, 408, 411, 413, 415, 422, 429, 503, 504})}};
+  return {
+      {"requestBody", openapi::json_body(body)},
+      {"responses", openapi::responses(openapi::json_content(answer), {411, 422, 429, 504})}};
 }
 
 }  // namespace

@@ -229,8 +229,7 @@ Answer stream(Sequence sequence, const Request& request, Service& service, const
 json stream_operation() {
   const json content{
       {"multipart/x-mixed-replace", {{"schema", {{"type", "string"}, {"format", "binary"}}}}}};
-  json responses =
-      openapi::responses(content, {400, 406, 408, 411, 413, 415, 422, 429, 503, 504});
+  json responses = openapi::responses(content, {406, 411, 422, 429, 504});
   responses["200"]["description"] =
       "Frames, each with Cyanometer-Frame (3/120), Cyanometer-Error and what else a rendered "
       "answer says of itself. Where one cannot be made, a part of application/problem+json "

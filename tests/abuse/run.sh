@@ -3,7 +3,7 @@
 # being stopped in the middle, a hundred thousand frames. Some twenty minutes on two cores; alone, or the
 # times that are measured are those of something else. By name:
 #
-#   build/test_abuse --gtest_filter=Abuse.Overload
+#   build/test_abuse --gtest_filter=Abuse.OverloadWithFramesOf720p
 set -euo pipefail
 
 ./cyanometer build

