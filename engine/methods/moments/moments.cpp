@@ -89,7 +89,9 @@ MomentSettings settings_of(const Problem& problem, const MethodOptions& options)
                           .steps = sized("steps", 2 + fineness + steps_more),
                           .orders = chosen("orders", orders_until_geometric(problem)),
                           .tail = true};
-  settings.altitudes = std::max(settings.altitudes, 4);  // as a cubic takes
+  constexpr int of_a_cubic = 4;
+  settings.altitudes = std::max(settings.altitudes, of_a_cubic);
+  settings.suns = std::max(settings.suns, of_a_cubic);
   settings.steps = std::min(settings.steps, int{Physics<float>::MOST_GAUSS_NODES});
   int wanted = problem.scattering_orders;
   constexpr int most_orders = 64;
@@ -482,12 +484,14 @@ const MethodDescription& moments_description() {
                  "Highest degree of the spherical-harmonic moments; 0 takes 2 in clean air, 4 "
                  "in clear air and up to 8 in haze.",
                  0, Physics<float>::MOST_DEGREE, 0, ErrorSource::tables),
-           whole("altitudes", "Altitudes",
-                 "Nodes of the tables over altitude; 0 takes what suits the degree, and more "
-                 "where the air is thick.",
-                 0, 32, 0, ErrorSource::tables),
+           whole(
+               "altitudes", "Altitudes",
+               "Nodes of the tables over altitude, at least 4; 0 takes what suits the degree, "
+               "and more where the air is thick.",
+               0, 32, 0, ErrorSource::tables),
            whole("suns", "Suns",
-                 "Nodes of the tables over the sun's elevation; 0 takes what suits the degree.",
+                 "Nodes of the tables over the sun's elevation, at least 4; 0 takes what suits "
+                 "the degree.",
                  0, 64, 0, ErrorSource::tables),
            whole("directions", "Directions",
                  "Zenith angles above the horizon of the rays that gather light, 0 for what "
