@@ -404,8 +404,9 @@ void wait_until_idle(const RenderQueue& queue) {
   }
 }
 
-/// How many frames a daemon of so much memory for them renders for a reader that does not read.
-std::uint64_t rendered_unread(double frame_memory_mb) {
+/// How many frames a daemon of so much memory for them renders for a reader that does not read,
+/// once it has rendered so many.
+std::uint64_t rendered_unread(double frame_memory_mb, std::uint64_t awaited) {
   Config config = free_port();
   config.frame_memory_mb = frame_memory_mb;
   Daemon daemon(config);
@@ -413,13 +414,17 @@ std::uint64_t rendered_unread(double frame_memory_mb) {
   wait_until_ready(daemon);
   RawClient slow(daemon.port());
   slow.send(stream_request(huge_link + "&frames=50&to.sun.elevation_deg=60"));
+  auto& frames = daemon.service().frames;
+  for (int i = 0; i < 6000 && frames.counts().rendered < awaited; ++i) {
+    std::this_thread::sleep_for(10ms);
+  }
   wait_until_idle(daemon.service().queue);
-  return daemon.service().frames.counts().rendered;
+  return frames.counts().rendered;
 }
 
-TEST(Stream, WhileAFrameIsSentTwoMoreAreMade) { EXPECT_EQ(rendered_unread(2048), 3u); }
+TEST(Stream, WhileAFrameIsSentTwoMoreAreMade) { EXPECT_EQ(rendered_unread(2048, 3), 3u); }
 
-TEST(Stream, OfLargeFramesNoneIsMadeAhead) { EXPECT_EQ(rendered_unread(64), 1u); }
+TEST(Stream, OfLargeFramesNoneIsMadeAhead) { EXPECT_EQ(rendered_unread(64, 1), 1u); }
 
 TEST(Stream, StoppingFinishesIt) {
   Daemon daemon(free_port());
