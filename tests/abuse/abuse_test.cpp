@@ -126,16 +126,12 @@ double generator_share(const Run& run) {
   return run.load.cpu_s / (run.load.seconds * cores);
 }
 
-/// Of the frames at the peak, those made under overload (medians of the rounds).
-struct Kept {
-  double raw;
-  double of_what_was_left;  ///< in the time that the generator, on the same processors, left
-};
-
-/// At ten times what it can do the daemon turns away at once what it does not do. Peak and
-/// overload are measured in turn, so that what else goes on here meets both: each overload is
-/// held against the peaks before and after it.
-Kept overload(const json& scene, int rounds) {
+/// The law: at ten times what it can do the daemon makes 95 % of the frames that it makes at
+/// its peak, at least, and turns the others away at once. The generator works on the same
+/// processors; what is made of the time that it leaves is printed beside. Peak and overload are
+/// measured in turn, so that what else goes on here meets both: each overload is held against
+/// the peaks before and after it.
+void overload(const json& scene, int rounds) {
   Served served;
   LoadSettings settings;
   settings.origin = served.origin();
@@ -204,21 +200,17 @@ Kept overload(const json& scene, int rounds) {
   EXPECT_GT(quantile(times, 0), 9.5) << "or it was no overload of ten times";
   EXPECT_LT(static_cast<double>(late), 0.05 * static_cast<double>(sent));
   EXPECT_LT(quantile(rejects, 0.99), 10);
-  return {quantile(raw_ratios, 0.5), quantile(ratios, 0.5)};
+  EXPECT_GE(quantile(raw_ratios, 0.5), 0.95);
 }
 
-/// The law: it makes 95 % of the frames that it makes at its peak, at least.
-TEST(Abuse, OverloadWithFramesOf720p) {
-  const Kept kept = overload({{"image", {{"width", 1280}, {"height", 720}}}},
-                             number_from_environment("CYANOMETER_LARGE_ROUNDS", 5));
-  EXPECT_GE(kept.raw, 0.95);
-}
-
-/// Of frames that take 5 ms two thousand others a second are turned away: that alone takes a
-/// twentieth of two processors.
 TEST(Abuse, OverloadWithSmallFrames) {
-  const Kept kept = overload(tiny_scene(), number_from_environment("CYANOMETER_ROUNDS", 7));
-  EXPECT_GE(kept.of_what_was_left, 0.9);
+  overload(tiny_scene(), number_from_environment("CYANOMETER_ROUNDS", 7));
+}
+
+/// As people ask for: turning away ten times as many is nothing beside one of these.
+TEST(Abuse, OverloadWithFramesOf720p) {
+  overload({{"image", {{"width", 1280}, {"height", 720}}}},
+           number_from_environment("CYANOMETER_LARGE_ROUNDS", 5));
 }
 
 /// Probes while something goes on; the worst times of 200.

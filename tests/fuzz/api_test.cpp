@@ -255,8 +255,8 @@ TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
   Config config;
   config.listen = "127.0.0.1:0";
   config.warm = false;
-  config.max_pixels = 1024;
-  config.max_device_s = 0.1;  // what is long is refused by name, and other cases have the time
+  config.max_pixels = 4096;
+  config.max_device_s = 1;
   config.max_wavelengths = 8;
   config.max_frames = 4;
   Daemon daemon(config);
@@ -286,7 +286,8 @@ TEST(Fuzz, EveryAnswerIsOneOfTheContract) {
   }
   EXPECT_EQ(client.Get("/readyz")->status, 200);
   tally.print();
-  EXPECT_GE(tally.of("all", 200), static_cast<int>(cases / 50));
+  // One case by itself, to see it again, may well be refused.
+  EXPECT_TRUE(cases < 50 || tally.of("all", 200) > static_cast<int>(cases / 50));
   const auto answered = [&](const std::string& name) { return tally.of(name, 200) > 0; };
   EXPECT_TRUE(cases < 1000 || std::ranges::count_if(tally.methods(), answered) >= 5);
 }
